@@ -1,0 +1,56 @@
+//! Hemi-oct: the +Z hemisphere projected onto half an octahedron, turned by 45 degrees so that it fills the square.
+//!
+//! ```text
+//! encode   p = (x, y) / (|x| + |y| + z);  code = snorm(p.x + p.y), snorm(p.x - p.y)
+//! decode   p = ((u + w) / 2, (u - w) / 2, 1 - max(|u|, |w|));  v = p / |p|
+//! ```
+//!
+//! Canonical: every direction has one pattern, but for -M-1, which reads as -M. Survive exactly: +Z, +-X and +-Y.
+//!
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
+
+use crate::formula::{Formula, One, closest_of_four};
+use crate::lane::{Lane, LaneInt};
+use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
+use crate::math;
+
+/// Hemi-oct in `BITS` bits.
+pub(crate) struct HemiOct<const BITS: u32>;
+
+impl<const BITS: u32> HemiOct<BITS> {
+    const M: i32 = snorm_max(BITS / 2);
+
+    #[inline(always)]
+    fn project<L: Lane>([x, y, z]: [L; 3]) -> [L; 2] {
+        let scale = L::splat(Self::M as f32) / (x.abs() + y.abs() + z);
+        let (x, y) = (x * scale, y * scale);
+        [x + y, x - y]
+    }
+}
+
+impl<const BITS: u32> Formula for HemiOct<BITS> {
+    type Words = One;
+    const HEMISPHERE: bool = true;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        pack_snorm2::<BITS, L>(Self::project(v).map(|p| p.round_int()))
+    }
+
+    #[inline(always)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        let max = L::Int::splat(Self::M);
+        closest_of_four(v, Self::project(v), |params| {
+            let code = pack_snorm2::<BITS, L>(params.map(|p| p.max(-max).min(max)));
+            (code, Self::decode::<L>(code))
+        })
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let [u, w] = unpack_snorm2::<BITS, L>(code);
+        let z = L::Int::splat(Self::M) - u.abs().max(w.abs());
+        let p = [u + w, u - w, z + z];
+        math::normalize(p.map(|c| L::from_int(c) * L::splat(0.5 / Self::M as f32)))
+    }
+}

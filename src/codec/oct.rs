@@ -1,0 +1,114 @@
+//! Octahedral: the sphere projected onto an octahedron, its lower half folded out into a square.
+//!
+//! ```text
+//! encode   p = v / (|x| + |y| + |z|)
+//!          (u, w) = (p.x, p.y)                                       if z >= 0
+//!                   ((1 - |p.y|) sgn p.x, (1 - |p.x|) sgn p.y)       if z < 0
+//!          code = snorm(u), snorm(w)
+//! decode   p = (u, w, 1 - |u| - |w|), the fold undone if p.z < 0; v = p / |p|
+//! ```
+//!
+//! In integers, with M = 2^(BITS/2 - 1) - 1 steps, the representable points are the (i, j, k) with
+//! i + j + k = M in each octant: a triangular lattice. The nearest of them to v is one of the three corners of the
+//! triangle that p lies in, since no triangle is obtuse once seen from the centre.
+//!
+//! Canonical: on the border of the square the points (u, +-M) and (+-M, w) stand for one direction where the folded
+//! coordinate is zero; the positive sign is the one emitted. Axes survive exactly.
+//!
+//! Source: Meyer, Süßmuth, Sußner, Stamminger and Greiner, "On Floating-Point Normal Vectors", 2010;
+//! Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
+
+use crate::formula::{Formula, One};
+use crate::lane::{Lane, LaneInt};
+use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
+use crate::math;
+
+/// Octahedral in `BITS` bits.
+pub(crate) struct Oct<const BITS: u32>;
+
+impl<const BITS: u32> Oct<BITS> {
+    const M: i32 = snorm_max(BITS / 2);
+
+    /// |v| on the octahedron, scaled to M.
+    #[inline(always)]
+    fn project<L: Lane>(v: [L; 3]) -> [L; 3] {
+        let [x, y, z] = v.map(|c| c.abs());
+        let scale = L::splat(Self::M as f32) / (x + y + z);
+        [x * scale, y * scale, z * scale]
+    }
+
+    /// Gives the magnitudes `u`, `w` the signs of `x`, `y`, but where a sign says nothing, plus.
+    #[inline(always)]
+    fn finish<L: Lane>([u, w]: [L::Int; 2], [x, y, _]: [L; 3]) -> L::Int {
+        let max = L::Int::splat(Self::M);
+        let zero = L::zero();
+        pack_snorm2::<BITS, L>([
+            L::Int::select(x.lt(zero) & !w.eq(max), -u, u),
+            L::Int::select(y.lt(zero) & !u.eq(max), -w, w),
+        ])
+    }
+}
+
+impl<const BITS: u32> Formula for Oct<BITS> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        let [x, y, _] = Self::project(v);
+        let max = L::splat(Self::M as f32);
+        // Fold the lower half over the diagonals.
+        let lower = v[2].lt(L::zero());
+        let u = L::select(lower, max - y, x).round_int();
+        let w = L::select(lower, max - x, y).round_int();
+        Self::finish([u, w], v)
+    }
+
+    #[inline(always)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        let p = Self::project(v);
+        let max = L::splat(Self::M as f32);
+        let one = L::splat(1.0);
+        let floor = p.map(|c| c.floor());
+        // The triangle around p: one short of M above the floors, or two.
+        let short = max - floor[0] - floor[1] - floor[2];
+        let down = L::splat(1.5).lt(short);
+        let base = floor.map(|c| L::select(down, c + one, c));
+        let step = max - base[0] - base[1] - base[2];
+        // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
+        let pp = math::length_squared(p);
+        let corner = |axis: usize| {
+            let mut q = base;
+            q[axis] = q[axis] + step;
+            let d = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
+            let along = p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
+            let off = math::length_squared(d) * pp - along * along;
+            (q, off, math::length_squared(q))
+        };
+        let closer = |a: ([L; 3], L, L), b: ([L; 3], L, L)| {
+            let b_wins = (b.1 * a.2).lt(a.1 * b.2);
+            let pick = |a, b| L::select(b_wins, b, a);
+            let q = core::array::from_fn(|i| pick(a.0[i], b.0[i]));
+            (q, pick(a.1, b.1), pick(a.2, b.2))
+        };
+        let ([i, j, _], ..) = closer(closer(corner(0), corner(1)), corner(2));
+        let lower = v[2].lt(L::zero());
+        let u = L::select(lower, max - j, i).round_int();
+        let w = L::select(lower, max - i, j).round_int();
+        Self::finish([u, w], v)
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let [u, w] = unpack_snorm2::<BITS, L>(code);
+        let (i, j) = (u.abs(), w.abs());
+        let k = L::Int::splat(Self::M) - i - j;
+        // Below the diagonals, fold back.
+        let fold = (-k).max(L::Int::splat(0));
+        let copy_sign = |magnitude: L::Int, sign: L::Int| {
+            let s = sign.sar(31);
+            (magnitude ^ s) - s
+        };
+        let p = [copy_sign(i - fold, u), copy_sign(j - fold, w), k];
+        math::normalize(p.map(|c| L::from_int(c) * L::splat(1.0 / Self::M as f32)))
+    }
+}

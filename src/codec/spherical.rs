@@ -1,0 +1,75 @@
+//! Spherical: the polar angle and the azimuth.
+//!
+//! ```text
+//! encode   theta = atan2(hypot(x, y), z), phi = atan2(y, x);  code = snorm(2 theta / pi - 1), snorm(phi / pi)
+//! decode   v = (sin theta cos phi, sin theta sin phi, cos theta)
+//! ```
+//!
+//! Canonical: at the poles the azimuth is 0; the azimuth of -X is +M, never -M. Survive exactly: +-Z and +-X.
+//!
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014. The angle of a
+//! vector near a pole comes from atan2, where acos(z) would lose half its digits.
+
+use crate::formula::{Closest, Formula, One};
+use crate::lane::{Lane, LaneInt};
+use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
+use crate::math::{atan2_half_turns, sin_cos_half_turns, sqrt};
+
+/// Spherical in `BITS` bits.
+pub(crate) struct Spherical<const BITS: u32>;
+
+impl<const BITS: u32> Spherical<BITS> {
+    const M: i32 = snorm_max(BITS / 2);
+
+    /// The two parameters, scaled to M.
+    #[inline(always)]
+    fn angles<L: Lane>([x, y, z]: [L; 3]) -> [L; 2] {
+        let max = L::splat(Self::M as f32);
+        let theta = atan2_half_turns(sqrt(x * x + y * y), z);
+        let phi = atan2_half_turns(y, x);
+        [(theta + theta - L::splat(1.0)) * max, phi * max]
+    }
+
+    #[inline(always)]
+    fn pack<L: Lane>([u, w]: [L::Int; 2]) -> L::Int {
+        let max = L::Int::splat(Self::M);
+        let pole = u.abs().eq(max);
+        let seam = w.eq(-max);
+        let w = L::Int::select(pole, L::Int::splat(0), L::Int::select(seam, max, w));
+        pack_snorm2::<BITS, L>([u, w])
+    }
+}
+
+impl<const BITS: u32> Formula for Spherical<BITS> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        Self::pack::<L>(Self::angles(v).map(|p| p.round_int()))
+    }
+
+    #[inline(always)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        // In any row the nearest column is the rounded one; the row may be either neighbour.
+        let [u, w] = Self::angles(v);
+        let (row, w) = (u.round_int(), w.round_int());
+        let up = L::from_int(row).lt(u);
+        let other = row + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1));
+        let max = L::Int::splat(Self::M);
+        let mut closest = Closest::to(v);
+        for u in [row, other.max(-max).min(max)] {
+            let code = Self::pack::<L>([u, w]);
+            closest.consider(code, Self::decode::<L>(code));
+        }
+        closest.code()
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let [u, w] = unpack_snorm2::<BITS, L>(code);
+        let step = 1.0 / Self::M as f32;
+        let (sin_u, cos_u) = sin_cos_half_turns(L::from_int(u) * L::splat(0.5 * step));
+        let (sin_phi, cos_phi) = sin_cos_half_turns(L::from_int(w) * L::splat(step));
+        [cos_u * cos_phi, cos_u * sin_phi, -sin_u]
+    }
+}

@@ -1,0 +1,79 @@
+//! The one error there is.
+
+use core::fmt;
+
+/// Slices that belong together differ in length. Nothing was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LengthMismatch {
+    /// Structure of arrays: the number of x, y and z components, and of codes.
+    #[allow(missing_docs)]
+    Soa { x: usize, y: usize, z: usize, codes: usize },
+    /// Array of structures: the number of vectors, and of codes.
+    #[allow(missing_docs)]
+    Aos { vectors: usize, codes: usize },
+    /// Codes as bytes: the number of x, y and z components, of bytes, and of bytes that one code takes.
+    #[allow(missing_docs)]
+    Bytes { x: usize, y: usize, z: usize, bytes: usize, code_size: usize },
+    /// Transcoding: the number of codes to read, and to write.
+    #[allow(missing_docs)]
+    Transcode { src: usize, dst: usize },
+}
+
+impl LengthMismatch {
+    #[inline]
+    pub(crate) fn check_soa(x: usize, y: usize, z: usize, codes: usize) -> Result<(), Self> {
+        if x == codes && y == codes && z == codes {
+            Ok(())
+        } else {
+            Err(LengthMismatch::Soa { x, y, z, codes })
+        }
+    }
+
+    #[inline]
+    pub(crate) fn check_aos(vectors: usize, codes: usize) -> Result<(), Self> {
+        if vectors == codes { Ok(()) } else { Err(LengthMismatch::Aos { vectors, codes }) }
+    }
+
+    #[inline]
+    pub(crate) fn check_bytes(
+        x: usize,
+        y: usize,
+        z: usize,
+        bytes: usize,
+        code_size: usize,
+    ) -> Result<(), Self> {
+        if x == y && y == z && x.checked_mul(code_size) == Some(bytes) {
+            Ok(())
+        } else {
+            Err(LengthMismatch::Bytes { x, y, z, bytes, code_size })
+        }
+    }
+
+    #[inline]
+    pub(crate) fn check_transcode(src: usize, dst: usize) -> Result<(), Self> {
+        if src == dst { Ok(()) } else { Err(LengthMismatch::Transcode { src, dst }) }
+    }
+}
+
+impl fmt::Display for LengthMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            LengthMismatch::Soa { x, y, z, codes } => {
+                write!(f, "lengths differ: x {x}, y {y}, z {z}, codes {codes}")
+            }
+            LengthMismatch::Aos { vectors, codes } => {
+                write!(f, "lengths differ: vectors {vectors}, codes {codes}")
+            }
+            LengthMismatch::Bytes { x, y, z, bytes, code_size } => write!(
+                f,
+                "lengths do not fit: x {x}, y {y}, z {z}, bytes {bytes} at {code_size} a code"
+            ),
+            LengthMismatch::Transcode { src, dst } => {
+                write!(f, "lengths differ: source {src}, destination {dst}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for LengthMismatch {}

@@ -1,0 +1,214 @@
+//! What a family of codecs writes.
+
+use bytemuck::Pod;
+
+use crate::lane::{Lane, LaneInt, LaneMask};
+use crate::math;
+
+/// A representation, as arithmetic on lanes. A family implements it once; [`batch`](crate::batch) makes
+/// every entry point of [`Codec`](crate::Codec) from it.
+pub(crate) trait Formula: 'static {
+    /// How many 32-bit integers hold a code: [`One`] or [`Three`].
+    type Words: Words;
+    /// Whether only z >= 0 is represented; z < 0 is then taken as 0.
+    const HEMISPHERE: bool = false;
+
+    /// Brings any input into a direction that `encode` understands: finite, not zero, its largest
+    /// component from 2^-40 to 2^48.
+    #[inline(always)]
+    fn prepare<L: Lane>([x, y, z]: [L; 3]) -> [L; 3] {
+        if Self::HEMISPHERE {
+            direction([x, y, L::select(z.lt(L::zero()), L::zero(), z)])
+        } else {
+            direction([x, y, z])
+        }
+    }
+
+    /// The fast encoder: each parameter rounded to nearest, ties to even. Gives canonical codes.
+    fn encode<L: Lane>(v: [L; 3]) -> Packed<Self, L>;
+
+    /// The code whose decoded vector is closest to `v`, canonical.
+    #[inline(always)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> Packed<Self, L> {
+        Self::encode(v)
+    }
+
+    /// Total: a unit vector for every bit pattern. Bits above the code's width are ignored.
+    fn decode<L: Lane>(code: Packed<Self, L>) -> [L; 3];
+}
+
+/// A code in lanes.
+pub(crate) type Packed<F, L> = <<F as Formula>::Words as Words>::Packed<L>;
+
+/// How many 32-bit integers hold a code while it is in lanes.
+pub(crate) trait Words {
+    type Packed<L: Lane>: Copy;
+}
+
+/// Codes of at most 32 bits.
+pub(crate) struct One;
+/// Codes of three components that need more.
+pub(crate) struct Three;
+
+impl Words for One {
+    type Packed<L: Lane> = L::Int;
+}
+impl Words for Three {
+    type Packed<L: Lane> = [L::Int; 3];
+}
+
+/// How a code of `W` words stands in memory.
+pub(crate) trait Stored<W: Words>: Pod {
+    fn load<L: Lane>(block: &L::Block<Self>) -> W::Packed<L>;
+    fn store<L: Lane>(code: W::Packed<L>, block: &mut L::Block<Self>);
+}
+
+macro_rules! stored {
+    ($type:ty: One, $load:expr, $store:expr) => {
+        impl Stored<One> for $type {
+            #[inline(always)]
+            fn load<L: Lane>(block: &L::Block<Self>) -> L::Int {
+                L::load_int(block, $load)
+            }
+            #[inline(always)]
+            fn store<L: Lane>(code: L::Int, block: &mut L::Block<Self>) {
+                L::store_int(code, block, $store);
+            }
+        }
+    };
+    ($type:ty: Three) => {
+        impl Stored<Three> for [$type; 3] {
+            #[inline(always)]
+            fn load<L: Lane>(block: &L::Block<Self>) -> [L::Int; 3] {
+                [
+                    L::load_int(block, |c: Self| u32::from(c[0])),
+                    L::load_int(block, |c: Self| u32::from(c[1])),
+                    L::load_int(block, |c: Self| u32::from(c[2])),
+                ]
+            }
+            #[inline(always)]
+            fn store<L: Lane>(code: [L::Int; 3], block: &mut L::Block<Self>) {
+                L::store_int(code[0], block, |c: &mut Self, i| c[0] = i as $type);
+                L::store_int(code[1], block, |c: &mut Self, i| c[1] = i as $type);
+                L::store_int(code[2], block, |c: &mut Self, i| c[2] = i as $type);
+            }
+        }
+    };
+}
+
+stored!(u8: One, u32::from, |c, i| *c = i as u8);
+stored!(u16: One, u32::from, |c, i| *c = i as u16);
+stored!(u32: One, |c| c, |c, i| *c = i);
+stored!(
+    [u8; 3]: One,
+    |[a, b, c]| u32::from_le_bytes([a, b, c, 0]),
+    |[a, b, c]: &mut [u8; 3], i| [*a, *b, *c, _] = i.to_le_bytes()
+);
+stored!(u16: Three);
+stored!(u32: Three);
+
+/// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become +Z, +Z, the limit direction, and
+/// `v` times a power of two.
+#[inline(always)]
+fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
+    const LEAST: f32 = 9.094_947e-13; // 2^-40
+    const GREATEST: f32 = 1.099_511_6e12; // 2^40
+    let magnitude = magnitude(v);
+    let usual = L::splat(LEAST).le(magnitude) & magnitude.le(L::splat(GREATEST));
+    if (!usual).any() { mend(v, magnitude, usual) } else { v }
+}
+
+/// The greatest |component|; NaN if there is one.
+#[inline(always)]
+fn magnitude<L: Lane>(v: [L; 3]) -> L {
+    // As integers, magnitudes stand in the same order, with infinity and then NaN last.
+    let [x, y, z] = v.map(|c| c.abs().to_bits());
+    L::from_bits(x.max(y).max(z))
+}
+
+#[cold]
+#[inline(never)]
+fn mend<L: Lane>(v: [L; 3], magnitude: L, usual: L::Mask) -> [L; 3] {
+    let infinite = L::splat(f32::INFINITY).le(magnitude);
+    // 2^-80 for the huge, 2^72 for the tiny, 2^126 for the subnormal and near it (below 2^-104).
+    let scale = L::select(
+        magnitude.lt(L::splat(4.930_380_7e-32)),
+        L::splat(8.507_059e37),
+        L::select(magnitude.lt(L::splat(1.0)), L::splat(4.722_366_5e21), L::splat(8.271_806e-25)),
+    );
+    let none = !(L::zero().lt(magnitude)); // zero or NaN
+    let pole = [L::zero(), L::zero(), L::splat(1.0)];
+    core::array::from_fn(|i| {
+        let c = v[i];
+        let at_infinity = L::splat(f32::INFINITY).le(c.abs());
+        let limit = L::select(at_infinity, L::splat(1.0).negate_where_negative(c), L::zero());
+        let c_mended = L::select(none, pole[i], L::select(infinite, limit, c * scale));
+        L::select(usual, c, c_mended)
+    })
+}
+
+/// Keeps the candidate that decodes closest to a vector.
+pub(crate) struct Closest<L: Lane> {
+    target: [L; 3],
+    code: L::Int,
+    distance: L,
+}
+
+impl<L: Lane> Closest<L> {
+    /// `target` needs no unit length.
+    #[inline(always)]
+    pub(crate) fn to(target: [L; 3]) -> Self {
+        Closest {
+            target: math::normalize(target),
+            code: L::Int::splat(0),
+            distance: L::splat(f32::INFINITY),
+        }
+    }
+
+    /// Considers a code that decodes to the unit vector `decoded`. The first of equals stays.
+    #[inline(always)]
+    pub(crate) fn consider(&mut self, code: L::Int, decoded: [L; 3]) {
+        self.consider_where(L::zero().le(L::zero()), code, decoded);
+    }
+
+    /// Considers a code in some lanes.
+    #[inline(always)]
+    pub(crate) fn consider_where(&mut self, counts: L::Mask, code: L::Int, decoded: [L; 3]) {
+        let distance = math::chord_squared(decoded, self.target);
+        let closer = counts & distance.lt(self.distance);
+        self.code = L::Int::select(closer, code, self.code);
+        self.distance = L::select(closer, distance, self.distance);
+    }
+
+    /// Chord to the closest so far.
+    #[inline(always)]
+    pub(crate) fn distance_squared(&self) -> L {
+        self.distance
+    }
+
+    #[inline(always)]
+    pub(crate) fn code(self) -> L::Int {
+        self.code
+    }
+}
+
+/// The closest code of those whose two parameters are each rounded down or up. `decode` turns parameters, which may be one
+/// step out of range, into a canonical code and its vector.
+#[inline(always)]
+pub(crate) fn closest_of_four<L: Lane>(
+    target: [L; 3],
+    params: [L; 2],
+    decode: impl Fn([L::Int; 2]) -> (L::Int, [L; 3]),
+) -> L::Int {
+    let near = params.map(|p| p.round_int());
+    let far: [L::Int; 2] = core::array::from_fn(|i| {
+        let up = L::from_int(near[i]).lt(params[i]);
+        near[i] + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1))
+    });
+    let mut closest = Closest::to(target);
+    for [u, w] in [[near[0], near[1]], [far[0], near[1]], [near[0], far[1]], [far[0], far[1]]] {
+        let (code, decoded) = decode([u, w]);
+        closest.consider(code, decoded);
+    }
+    closest.code()
+}

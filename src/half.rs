@@ -1,0 +1,92 @@
+//! IEEE 754 half precision on lanes.
+
+use crate::lane::{Lane, LaneInt};
+
+/// The greatest finite half, 65504.
+pub(crate) const GREATEST: i32 = 0x7BFF;
+/// 1.0.
+pub(crate) const ONE: i32 = 0x3C00;
+
+/// A finite half as a sign and a magnitude in order: -5 is the half with bits 0x8005, 5 that with bits 0x0005. There is one zero.
+///
+/// The nearest to `x`, ties to even, for |x| < 65520.
+#[inline(always)]
+pub(crate) fn nearest<L: Lane>(x: L) -> L::Int {
+    let bits = x.abs().to_bits();
+    // Normal: round the 13 low bits of the mantissa away, then move the exponent's bias from 127 to 15.
+    let even = bits.shr(13).low(1);
+    let normal = (bits + L::Int::splat(0xFFF) + even).shr(13) - L::Int::splat(112 << 10);
+    // Subnormal: in [0.5, 1) the mantissa counts units of 2^-24.
+    let subnormal = (x.abs() + L::splat(0.5)).to_bits() - L::Int::splat(0.5f32.to_bits() as i32);
+    let least_normal = L::Int::splat(113 << 23); // 2^-14
+    let magnitude = L::Int::select(bits.lt(least_normal), subnormal, normal);
+    L::Int::select(x.lt(L::zero()), -magnitude, magnitude)
+}
+
+/// The value of an ordered half. For |i| <= [`GREATEST`].
+#[inline(always)]
+pub(crate) fn value<L: Lane>(i: L::Int) -> L {
+    let magnitude = i.abs();
+    let normal = L::from_bits(magnitude.shl(13) + L::Int::splat(112 << 23));
+    let subnormal = L::from_int(magnitude) * L::splat(1.0 / 16_777_216.0);
+    let least_normal = L::Int::splat(0x400);
+    let v = L::select(magnitude.lt(least_normal), subnormal, normal);
+    let negative = i.lt(L::Int::splat(0));
+    L::select(negative, -v, v)
+}
+
+/// The bits of an ordered half.
+#[inline(always)]
+pub(crate) fn to_bits<L: Lane>(i: L::Int) -> L::Int {
+    i.abs() | (i & L::Int::splat(i32::MIN)).shr(16)
+}
+
+/// The ordered half of any 16 bits, its magnitude cut to `greatest`: infinities and NaN are cut as well.
+#[inline(always)]
+pub(crate) fn from_bits<L: Lane>(bits: L::Int, greatest: i32) -> L::Int {
+    let magnitude = bits.low(15).min(L::Int::splat(greatest));
+    let sign = bits.sign_extend(16).sar(31);
+    (magnitude ^ sign) - sign
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::half::f16;
+    use core::num::Wrapping;
+
+    #[test]
+    fn every_finite_half_has_its_value_and_its_bits() {
+        for bits in (0..=0x7BFFu16).chain(0x8000..=0xFBFF) {
+            let i = from_bits::<f32>(Wrapping(i32::from(bits)), GREATEST);
+            assert_eq!(value::<f32>(i), f16::from_bits(bits).to_f32());
+            let back = if bits == 0x8000 { 0 } else { bits };
+            assert_eq!(to_bits::<f32>(i).0, i32::from(back));
+            assert_eq!(nearest(f16::from_bits(bits).to_f32()), i);
+        }
+    }
+
+    #[test]
+    fn magnitudes_are_cut() {
+        for (bits, cut) in [(0x7C00, 0x7BFF), (0x7E01, 0x7BFF), (0xFFFF, -0x7BFF)] {
+            assert_eq!(from_bits::<f32>(Wrapping(bits), GREATEST).0, cut);
+        }
+        assert_eq!(from_bits::<f32>(Wrapping(0xC000), ONE).0, -ONE);
+    }
+
+    #[test]
+    fn rounding_is_to_nearest_even() {
+        // Every half, every midpoint between two, and the floats next to each.
+        for bits in 0..0x7BFFu16 {
+            let (a, b) = (f16::from_bits(bits).to_f32(), f16::from_bits(bits + 1).to_f32());
+            for centre in [a, (a + b) / 2.0] {
+                for x in [centre.next_down(), centre, centre.next_up()] {
+                    let i =
+                        from_bits::<f32>(Wrapping(i32::from(f16::from_f32(x).to_bits())), GREATEST);
+                    assert_eq!(nearest(x), i, "{x:e}");
+                    assert_eq!(nearest(-x), -i, "{x:e}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! The only arithmetic a formula may use, and its one-lane form.
+//!
+//! Every required method is exact in IEEE arithmetic (or on integers), so one lane and eight lanes
+//! give the same bits on every target. What is approximate is written once, on top, here and in
+//! [`math`](crate::math).
+
+use core::num::Wrapping;
+use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+
+/// 1.5 * 2^23: adding it rounds to an integer, ties to even, which then stands in the low mantissa bits.
+const ROUNDER: f32 = 12_582_912.0;
+
+/// A vector of `f32`, of as many lanes as the implementation has.
+pub(crate) trait Lane:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Wrapping 32-bit integers, one per lane.
+    type Int: LaneInt<Mask = Self::Mask>;
+    /// A truth value per lane.
+    type Mask: LaneMask;
+    /// As many elements of a slice as there are lanes.
+    type Block<T: Copy>: Copy;
+
+    fn splat(x: f32) -> Self;
+    fn load(block: &Self::Block<f32>) -> Self;
+    fn store(self, block: &mut Self::Block<f32>);
+    /// Integers computed from the elements of a block.
+    fn load_int<T: Copy>(block: &Self::Block<T>, f: impl Fn(T) -> u32) -> Self::Int;
+    /// Writes integers, converted, to the elements of a block.
+    fn store_int<T: Copy>(int: Self::Int, block: &mut Self::Block<T>, f: impl Fn(&mut T, u32));
+
+    fn from_bits(bits: Self::Int) -> Self;
+    fn to_bits(self) -> Self::Int;
+    /// Exact for |i| <= 2^24.
+    fn from_int(i: Self::Int) -> Self;
+
+    fn lt(self, other: Self) -> Self::Mask;
+    fn le(self, other: Self) -> Self::Mask;
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::splat(0.0)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::from_bits(self.to_bits() & Self::Int::splat(0x7FFF_FFFF))
+    }
+
+    /// Minus self where `sign` is below zero. A negative zero counts as zero.
+    #[inline(always)]
+    fn negate_where_negative(self, sign: Self) -> Self {
+        Self::select(sign.lt(Self::zero()), -self, self)
+    }
+
+    /// The lesser; `other` where either is NaN.
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+
+    /// The greater; `other` where either is NaN.
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        Self::select(other.lt(self), self, other)
+    }
+
+    /// Nearest integer, ties to even. For |x| < 2^22.
+    #[inline(always)]
+    fn round(self) -> Self {
+        (self + Self::splat(ROUNDER)) - Self::splat(ROUNDER)
+    }
+
+    /// Nearest integer, ties to even, as an integer. For |x| < 2^22.
+    #[inline(always)]
+    fn round_int(self) -> Self::Int {
+        (self + Self::splat(ROUNDER)).to_bits() - Self::Int::splat(ROUNDER.to_bits() as i32)
+    }
+
+    /// Greatest integer not above. For |x| < 2^22.
+    #[inline(always)]
+    fn floor(self) -> Self {
+        let r = self.round();
+        Self::select(self.lt(r), r - Self::splat(1.0), r)
+    }
+}
+
+/// A vector of wrapping 32-bit integers.
+pub(crate) trait LaneInt:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + BitAnd<Output = Self>
+    + BitOr<Output = Self>
+    + BitXor<Output = Self>
+    + Neg<Output = Self>
+{
+    type Mask: LaneMask;
+
+    fn splat(i: i32) -> Self;
+    fn shl(self, bits: u32) -> Self;
+    /// Shifts in zeros.
+    fn shr(self, bits: u32) -> Self;
+    /// Shifts in the sign.
+    fn sar(self, bits: u32) -> Self;
+    fn lt(self, other: Self) -> Self::Mask;
+    fn eq(self, other: Self) -> Self::Mask;
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(self.lt(other), self, other)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(other.lt(self), self, other)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.max(-self)
+    }
+
+    /// The low `bits` bits, read as two's complement.
+    #[inline(always)]
+    fn sign_extend(self, bits: u32) -> Self {
+        self.shl(32 - bits).sar(32 - bits)
+    }
+
+    /// The low `bits` bits.
+    #[inline(always)]
+    fn low(self, bits: u32) -> Self {
+        self & Self::splat(((1u64 << bits) - 1) as i32)
+    }
+}
+
+/// A truth value per lane.
+pub(crate) trait LaneMask:
+    Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// Whether it holds in any lane.
+    fn any(self) -> bool;
+}
+
+impl Lane for f32 {
+    type Int = Wrapping<i32>;
+    type Mask = bool;
+    type Block<T: Copy> = [T; 1];
+
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn load(block: &[f32; 1]) -> Self {
+        block[0]
+    }
+    #[inline(always)]
+    fn store(self, block: &mut [f32; 1]) {
+        *block = [self];
+    }
+    #[inline(always)]
+    fn load_int<T: Copy>(block: &[T; 1], f: impl Fn(T) -> u32) -> Self::Int {
+        Wrapping(f(block[0]) as i32)
+    }
+    #[inline(always)]
+    fn store_int<T: Copy>(int: Self::Int, block: &mut [T; 1], f: impl Fn(&mut T, u32)) {
+        f(&mut block[0], int.0 as u32);
+    }
+    #[inline(always)]
+    fn from_bits(bits: Self::Int) -> Self {
+        f32::from_bits(bits.0 as u32)
+    }
+    #[inline(always)]
+    fn to_bits(self) -> Self::Int {
+        Wrapping(f32::to_bits(self) as i32)
+    }
+    #[inline(always)]
+    fn from_int(i: Self::Int) -> Self {
+        i.0 as f32
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
+
+impl LaneInt for Wrapping<i32> {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn splat(i: i32) -> Self {
+        Wrapping(i)
+    }
+    #[inline(always)]
+    fn shl(self, bits: u32) -> Self {
+        Wrapping(self.0.wrapping_shl(bits))
+    }
+    #[inline(always)]
+    fn shr(self, bits: u32) -> Self {
+        Wrapping((self.0 as u32).wrapping_shr(bits) as i32)
+    }
+    #[inline(always)]
+    fn sar(self, bits: u32) -> Self {
+        Wrapping(self.0.wrapping_shr(bits))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self.0 < other.0
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+}
+
+impl LaneMask for bool {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+}

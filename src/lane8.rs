@@ -1,0 +1,160 @@
+//! The eight-lane form of [`Lane`], on `wide`.
+//!
+//! Only operations that `wide` computes exactly on every target are used: see `clippy.toml` for those
+//! that are banned.
+
+use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+
+use crate::lane::{Lane, LaneInt, LaneMask};
+use bytemuck::cast;
+use wide::{f32x8, i32x8, u32x8};
+
+/// Eight `f32`.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(crate) struct F8(f32x8);
+
+/// Eight wrapping 32-bit integers.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(crate) struct I8(i32x8);
+
+/// Eight truth values, all bits set or none.
+#[derive(Clone, Copy)]
+#[repr(transparent)]
+pub(crate) struct M8(i32x8);
+
+macro_rules! operators {
+    ($($type:ident: $($trait:ident $method:ident),*;)*) => { $($(
+        impl $trait for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self($trait::$method(self.0, other.0))
+            }
+        }
+    )*)* };
+}
+
+operators! {
+    F8: Add add, Sub sub, Mul mul, Div div;
+    I8: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor;
+    M8: BitAnd bitand, BitOr bitor;
+}
+
+impl Neg for F8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        F8(cast::<i32x8, f32x8>(cast::<f32x8, i32x8>(self.0) ^ i32x8::splat(i32::MIN)))
+    }
+}
+
+impl Neg for I8 {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        I8(i32x8::splat(0) - self.0)
+    }
+}
+
+impl Not for M8 {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        M8(!self.0)
+    }
+}
+
+impl Lane for F8 {
+    type Int = I8;
+    type Mask = M8;
+    type Block<T: Copy> = [T; 8];
+
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        F8(f32x8::splat(x))
+    }
+    #[inline(always)]
+    fn load(block: &[f32; 8]) -> Self {
+        F8(f32x8::new(*block))
+    }
+    #[inline(always)]
+    fn store(self, block: &mut [f32; 8]) {
+        *block = self.0.to_array();
+    }
+    #[inline(always)]
+    fn load_int<T: Copy>(block: &[T; 8], f: impl Fn(T) -> u32) -> I8 {
+        I8(i32x8::new(block.map(|t| f(t) as i32)))
+    }
+    #[inline(always)]
+    fn store_int<T: Copy>(int: I8, block: &mut [T; 8], f: impl Fn(&mut T, u32)) {
+        for (t, i) in block.iter_mut().zip(int.0.to_array()) {
+            f(t, i as u32);
+        }
+    }
+    #[inline(always)]
+    fn from_bits(bits: I8) -> Self {
+        F8(cast(bits.0))
+    }
+    #[inline(always)]
+    fn to_bits(self) -> I8 {
+        I8(cast(self.0))
+    }
+    #[inline(always)]
+    fn from_int(i: I8) -> Self {
+        F8(i.0.round_float())
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> M8 {
+        M8(cast(self.0.simd_lt(other.0)))
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> M8 {
+        M8(cast(self.0.simd_le(other.0)))
+    }
+    #[inline(always)]
+    fn select(mask: M8, yes: Self, no: Self) -> Self {
+        F8(cast::<i32x8, f32x8>(mask.0).select(yes.0, no.0))
+    }
+}
+
+impl LaneInt for I8 {
+    type Mask = M8;
+
+    #[inline(always)]
+    fn splat(i: i32) -> Self {
+        I8(i32x8::splat(i))
+    }
+    #[inline(always)]
+    fn shl(self, bits: u32) -> Self {
+        I8(self.0 << bits)
+    }
+    #[inline(always)]
+    fn shr(self, bits: u32) -> Self {
+        I8(cast(cast::<i32x8, u32x8>(self.0) >> bits))
+    }
+    #[inline(always)]
+    fn sar(self, bits: u32) -> Self {
+        I8(self.0 >> bits)
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> M8 {
+        M8(self.0.simd_lt(other.0))
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> M8 {
+        M8(self.0.simd_eq(other.0))
+    }
+    #[inline(always)]
+    fn select(mask: M8, yes: Self, no: Self) -> Self {
+        I8(mask.0.select(yes.0, no.0))
+    }
+}
+
+impl LaneMask for M8 {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.0.any()
+    }
+}

@@ -1,0 +1,22 @@
+#![doc = include_str!("../README.md")]
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
+mod batch;
+mod codec;
+mod error;
+mod format;
+mod formula;
+mod half;
+mod lane;
+mod lane8;
+mod layout;
+mod math;
+
+pub use batch::{Soa, SoaMut, transcode};
+pub use codec::*;
+pub use error::LengthMismatch;
+pub use format::{UnknownFormat, Visitor};

@@ -1,0 +1,175 @@
+//! Roots and trigonometry, written once for any number of lanes, from exact operations only.
+//!
+//! Angles are in half turns: 1 is 180 degrees. The polynomials interpolate at Chebyshev nodes.
+
+use crate::lane::{Lane, LaneInt};
+
+/// 1/sqrt(x) for normal x > 0, with relative error below 1.1e-7; exact at 1. A large finite number at 0.
+///
+/// A first guess from the exponent (Jan Kadlec, "Rychla inverzni odmocnina", 2010: error 6.5e-4), then one
+/// step of Householder's method of third order. No division and no square root, so it costs the same
+/// order of time everywhere, also where there is no hardware for either.
+#[inline(always)]
+pub(crate) fn inv_sqrt<L: Lane>(x: L) -> L {
+    let guess = L::from_bits(L::Int::splat(0x5F1F_FFF9) - x.to_bits().shr(1));
+    let y = (guess * L::splat(0.703_952_25)) * (L::splat(2.389_244_6) - (x * guess) * guess);
+    let e = L::splat(1.0) - (x * y) * y;
+    y + y * (e * (L::splat(0.5) + L::splat(0.375) * e))
+}
+
+/// sqrt(x) for x = 0 or normal x > 0, with relative error below 1.5e-7; exact at 0 and 1.
+#[inline(always)]
+pub(crate) fn sqrt<L: Lane>(x: L) -> L {
+    x * inv_sqrt(x)
+}
+
+/// v.v.
+#[inline(always)]
+pub(crate) fn length_squared<L: Lane>(v: [L; 3]) -> L {
+    v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+}
+
+/// |a - b|^2.
+#[inline(always)]
+pub(crate) fn chord_squared<L: Lane>(a: [L; 3], b: [L; 3]) -> L {
+    length_squared([a[0] - b[0], a[1] - b[1], a[2] - b[2]])
+}
+
+/// v / |v|, whose greatest component is from 2^-60 to 2^60; its length is 1 to 2.5e-7. An axis stays exact if its length is 1.
+#[inline(always)]
+pub(crate) fn normalize<L: Lane>(v: [L; 3]) -> [L; 3] {
+    let r = inv_sqrt(length_squared(v));
+    v.map(|c| c * r)
+}
+
+/// (sin, cos) of |x| <= 2 half turns, with error below 1.2e-7; exact at multiples of a quarter turn.
+#[inline(always)]
+pub(crate) fn sin_cos_half_turns<L: Lane>(x: L) -> (L, L) {
+    // Nearest quarter turn, and what is left of it: |r| <= 1/4.
+    let quarter = (x * L::splat(2.0)).round_int();
+    let r = x - L::from_int(quarter) * L::splat(0.5);
+    let s = r * r;
+    let sin = r
+        * (L::splat(core::f32::consts::PI)
+            + s * (L::splat(-5.167_713)
+                + s * (L::splat(2.550_162_6)
+                    + s * (L::splat(-0.599_202_1) + s * L::splat(0.081_001_63)))));
+    let cos = L::splat(1.0)
+        + s * (L::splat(-4.934_802)
+            + s * (L::splat(4.058_710_6)
+                + s * (L::splat(-1.335_137_8) + s * L::splat(0.232_125_41))));
+    // Turn by the quarters.
+    let odd = quarter.low(1).eq(L::Int::splat(1));
+    let (sin, cos) = (L::select(odd, cos, sin), L::select(odd, sin, cos));
+    let sign =
+        |quarter: L::Int, v: L| L::from_bits(v.to_bits() ^ (quarter & L::Int::splat(2)).shl(30));
+    (sign(quarter, sin), sign(quarter + L::Int::splat(1), cos))
+}
+
+/// The angle of (x, y) in half turns, in (-1, 1], with error below 1.5e-7; 0 at (0, 0). Zeros have no sign.
+/// Exact on the axes and the diagonals. For components that are zero or from 2^-100 to 2^60.
+#[inline(always)]
+pub(crate) fn atan2_half_turns<L: Lane>(y: L, x: L) -> L {
+    let (ax, ay) = (x.abs(), y.abs());
+    let (long, short) = (ax.greater(ay), ax.lesser(ay));
+    // Above tan(22.5 degrees), measure from the diagonal: atan(s/l) = 45 degrees + atan((s-l)/(s+l)).
+    let steep = (long * L::splat(0.414_213_57)).lt(short);
+    let over = L::select(steep, short - long, short);
+    let under = L::select(steep, short + long, long);
+    let t = over / under.greater(L::splat(f32::MIN_POSITIVE));
+    let s = t * t;
+    let a = t
+        * (L::splat(core::f32::consts::FRAC_1_PI)
+            + s * (L::splat(-0.106_101_55)
+                + s * (L::splat(0.063_579_48)
+                    + s * (L::splat(-0.044_081_114) + s * L::splat(0.025_389_325)))));
+    let a = L::select(steep, L::splat(0.25) + a, a);
+    // Back to the whole turn.
+    let a = L::select(ax.lt(ay), L::splat(0.5) - a, a);
+    let a = L::select(x.lt(L::zero()), L::splat(1.0) - a, a);
+    a.negate_where_negative(y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    /// Greatest of `error(x)` over evenly spaced x.
+    fn greatest(from: f32, to: f32, count: u32, error: impl Fn(f32) -> f64) -> f64 {
+        (0..=count)
+            .map(|i| from + (to - from) * (i as f32 / count as f32))
+            .map(error)
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn inverse_root_meets_its_bound_for_every_mantissa() {
+        for bits in 0x3F80_0000u32..0x4080_0000 {
+            let x = f32::from_bits(bits);
+            let exact = 1.0 / f64::from(x).sqrt();
+            assert!((f64::from(inv_sqrt(x)) / exact - 1.0).abs() < 1.1e-7, "{x}");
+            let root = f64::from(x).sqrt();
+            assert!((f64::from(sqrt(x)) / root - 1.0).abs() < 1.5e-7, "{x}");
+        }
+    }
+
+    #[test]
+    fn inverse_root_scales_by_exact_powers_of_two() {
+        for x in [1.0f32, 1.5, 1.999, 2.0, 3.999] {
+            for k in -60..=60 {
+                let scale = 2f32.powi(k);
+                assert_eq!(inv_sqrt(x * scale * scale) * scale, inv_sqrt(x), "{x} 2^{k}");
+            }
+        }
+    }
+
+    #[test]
+    fn roots_are_exact_at_zero_and_one() {
+        assert_eq!([sqrt(0.0f32), sqrt(1.0f32), inv_sqrt(1.0f32)], [0.0, 1.0, 1.0]);
+        assert!(inv_sqrt(0.0f32).is_finite());
+    }
+
+    #[test]
+    fn sine_and_cosine_meet_their_bound() {
+        let error = |x: f32| {
+            let (s, c) = sin_cos_half_turns(x);
+            let (es, ec) = (PI * f64::from(x)).sin_cos();
+            (f64::from(s) - es).abs().max((f64::from(c) - ec).abs())
+        };
+        let worst = greatest(-2.0, 2.0, 4_000_000, error);
+        assert!(worst < 1.2e-7, "{worst:e}");
+    }
+
+    #[test]
+    fn sine_and_cosine_are_exact_at_quarter_turns() {
+        let quarters = [-1.0f32, -0.5, 0.0, 0.5, 1.0];
+        let got = quarters.map(|x| sin_cos_half_turns(x));
+        assert_eq!(got, [(0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (0.0, -1.0)]);
+    }
+
+    #[test]
+    fn arc_tangent_meets_its_bound_all_around() {
+        for radius in [1e-12f32, 1.0, 1e12] {
+            let error = |t: f32| {
+                let (y, x) = (PI * f64::from(t)).sin_cos();
+                let (x, y) = (x as f32 * radius, y as f32 * radius);
+                let exact = f64::from(y).atan2(f64::from(x)) / PI;
+                (f64::from(atan2_half_turns(y, x)) - exact).abs()
+            };
+            let worst = greatest(-1.0, 1.0, 2_000_000, error);
+            assert!(worst < 1.5e-7, "{worst:e}");
+        }
+    }
+
+    #[test]
+    fn arc_tangent_is_exact_on_axes_and_diagonals_and_zero_has_no_sign() {
+        let at = |y: f32, x: f32| atan2_half_turns(y, x);
+        assert_eq!(
+            [at(0.0, 1.0), at(1.0, 0.0), at(-1.0, 0.0), at(0.0, -1.0)],
+            [0.0, 0.5, -0.5, 1.0]
+        );
+        assert_eq!([at(-0.0, -1.0), at(-0.0, -0.0), at(0.0, 0.0)], [1.0, 0.0, 0.0]);
+        assert_eq!([at(1.0, 1.0), at(1.0, -1.0), at(-1.0, -1.0)], [0.25, 0.75, -0.75]);
+    }
+}
