@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 
-use crate::lane::{Lane, LaneInt, LaneMask};
+use crate::lane::{Each, Lane, LaneInt, LaneMask};
 use crate::math;
 
 /// A representation, as arithmetic on lanes. A family implements it once; [`batch`](crate::batch) makes
@@ -122,7 +122,7 @@ fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
 #[inline(always)]
 fn magnitude<L: Lane>(v: [L; 3]) -> L {
     // As integers, magnitudes stand in the same order, with infinity and then NaN last.
-    let [x, y, z] = v.map(|c| c.abs().to_bits());
+    let [x, y, z] = v.each(|c| c.abs().to_bits());
     L::from_bits(x.max(y).max(z))
 }
 
@@ -138,7 +138,7 @@ fn mend<L: Lane>(v: [L; 3], magnitude: L, usual: L::Mask) -> [L; 3] {
     );
     let none = !(L::zero().lt(magnitude)); // zero or NaN
     let pole = [L::zero(), L::zero(), L::splat(1.0)];
-    core::array::from_fn(|i| {
+    [0, 1, 2].each(|i: usize| {
         let c = v[i];
         let at_infinity = L::splat(f32::INFINITY).le(c.abs());
         let limit = L::select(at_infinity, L::splat(1.0).negate_where_negative(c), L::zero());
@@ -200,8 +200,8 @@ pub(crate) fn closest_of_four<L: Lane>(
     params: [L; 2],
     decode: impl Fn([L::Int; 2]) -> (L::Int, [L; 3]),
 ) -> L::Int {
-    let near = params.map(|p| p.round_int());
-    let far: [L::Int; 2] = core::array::from_fn(|i| {
+    let near = params.each(|p| p.round_int());
+    let far: [L::Int; 2] = [0, 1].each(|i: usize| {
         let up = L::from_int(near[i]).lt(params[i]);
         near[i] + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1))
     });

@@ -150,6 +150,30 @@ pub(crate) trait LaneMask:
     fn any(self) -> bool;
 }
 
+/// `map` for the components of a vector, without the detours that keep `array::map` from being inlined.
+pub(crate) trait Each<T> {
+    type Of<U>;
+    fn each<U>(self, f: impl Fn(T) -> U) -> Self::Of<U>;
+}
+
+impl<T> Each<T> for [T; 2] {
+    type Of<U> = [U; 2];
+    #[inline(always)]
+    fn each<U>(self, f: impl Fn(T) -> U) -> [U; 2] {
+        let [a, b] = self;
+        [f(a), f(b)]
+    }
+}
+
+impl<T> Each<T> for [T; 3] {
+    type Of<U> = [U; 3];
+    #[inline(always)]
+    fn each<U>(self, f: impl Fn(T) -> U) -> [U; 3] {
+        let [a, b, c] = self;
+        [f(a), f(b), f(c)]
+    }
+}
+
 impl Lane for f32 {
     type Int = Wrapping<i32>;
     type Mask = bool;

@@ -1,6 +1,6 @@
 //! Where the parameters of a code stand among its bits.
 
-use crate::lane::{Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt};
 
 /// Two parameters of `BITS / 2` bits each: the first in the low bits. At 24 bits, the RGB8 bytes of the
 /// survey's Listing 4 (Cigolle et al. 2014): `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
@@ -39,7 +39,7 @@ pub(crate) const fn unorm_max(bits: u32) -> i32 {
 pub(crate) fn pack_snorm2<const BITS: u32, L: Lane>(params: [L::Int; 2]) -> L::Int {
     if BITS == 24 {
         let bias = L::Int::splat(snorm_max(12));
-        pack2::<BITS, L>(params.map(|p| p + bias))
+        pack2::<BITS, L>(params.each(|p| p + bias))
     } else {
         pack2::<BITS, L>(params)
     }
@@ -50,9 +50,9 @@ pub(crate) fn pack_snorm2<const BITS: u32, L: Lane>(params: [L::Int; 2]) -> L::I
 pub(crate) fn unpack_snorm2<const BITS: u32, L: Lane>(code: L::Int) -> [L::Int; 2] {
     let max = L::Int::splat(snorm_max(BITS / 2));
     if BITS == 24 {
-        unpack2::<BITS, L>(code).map(|p| (p - max).min(max))
+        unpack2::<BITS, L>(code).each(|p| (p - max).min(max))
     } else {
-        [code, code.shr(BITS / 2)].map(|p| p.sign_extend(BITS / 2).max(-max))
+        [code, code.shr(BITS / 2)].each(|p| p.sign_extend(BITS / 2).max(-max))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Angles are in half turns: 1 is 180 degrees. The polynomials interpolate at Chebyshev nodes.
 
-use crate::lane::{Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt};
 
 /// 1/sqrt(x) for normal x > 0, with relative error below 1.1e-7; exact at 1. A large finite number at 0.
 ///
@@ -39,7 +39,7 @@ pub(crate) fn chord_squared<L: Lane>(a: [L; 3], b: [L; 3]) -> L {
 #[inline(always)]
 pub(crate) fn normalize<L: Lane>(v: [L; 3]) -> [L; 3] {
     let r = inv_sqrt(length_squared(v));
-    v.map(|c| c * r)
+    v.each(|c| c * r)
 }
 
 /// (sin, cos) of |x| <= 2 half turns, with error below 1.2e-7; exact at multiples of a quarter turn.

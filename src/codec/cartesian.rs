@@ -9,7 +9,7 @@
 //! it tries every value of the largest component, rounding the other two, and keeps the nearest direction.
 //!
 //! Canonical: of the patterns of one direction, such as (1, 1, 0) and (90, 90, 0), the one whose length is nearest to 1. That
-//! is the one rounding gives. Directions that f32 cannot tell apart count as one. Axes survive exactly. In snorm, -M-1 reads as -M;
+//! is the one rounding gives. On the grids that are finer than f32, snorm16x3 and float16x3, those that decode alike count as one. Axes survive exactly. In snorm, -M-1 reads as -M;
 //! in halves, infinities and NaN read as 65504.
 //!
 //! [`Floats`] stores the bits of the input as they are, and gives them back.
@@ -21,9 +21,9 @@ use core::marker::PhantomData;
 
 use crate::formula::{Formula, One, Packed, Three, Words};
 use crate::half;
-use crate::lane::{Lane, LaneInt, LaneMask};
+use crate::lane::{Each, Lane, LaneInt, LaneMask};
 use crate::layout::snorm_max;
-use crate::math::{chord_squared, length_squared, normalize, sqrt};
+use crate::math::{chord_squared, inv_sqrt, length_squared, normalize, sqrt};
 
 /// Three components on a grid.
 pub(crate) struct Cartesian<G>(PhantomData<G>);
@@ -35,9 +35,8 @@ pub(crate) trait Grid: 'static {
     const STEPS: [f32; 3];
     /// How many values the search for the largest component tries.
     const LENGTHS: i32;
-    /// Vectors this close to the nearest, in radians, count as nearest too: those of one direction differ by rounding alone.
-    /// Zero where the grid is finer than f32.
-    const SLACK: f32;
+    /// Whether f32 tells all directions of the grid apart. It is then so coarse that the nearest may be half a step off.
+    const DISTINCT: bool;
 
     /// The `n`th value for the largest component, `n` from 1 to [`LENGTHS`](Self::LENGTHS).
     fn length<L: Lane>(n: L, step: L) -> L;
@@ -59,7 +58,7 @@ impl<const X: u32, const Y: u32, const Z: u32> Grid for Snorm<X, Y, Z> {
     type Words = One;
     const STEPS: [f32; 3] = [snorm_max(X) as f32, snorm_max(Y) as f32, snorm_max(Z) as f32];
     const LENGTHS: i32 = if X > Z { snorm_max(X) } else { snorm_max(Z) };
-    const SLACK: f32 = 2e-7;
+    const DISTINCT: bool = true;
 
     #[inline(always)]
     fn length<L: Lane>(n: L, step: L) -> L {
@@ -93,7 +92,7 @@ impl Grid for Snorm16 {
     type Words = Three;
     const STEPS: [f32; 3] = [snorm_max(16) as f32; 3];
     const LENGTHS: i32 = snorm_max(16);
-    const SLACK: f32 = 0.0;
+    const DISTINCT: bool = false;
 
     #[inline(always)]
     fn length<L: Lane>(n: L, step: L) -> L {
@@ -113,7 +112,7 @@ impl Grid for Snorm16 {
     }
     #[inline(always)]
     fn unpack<L: Lane>(code: [L::Int; 3]) -> [L::Int; 3] {
-        code.map(|c| c.sign_extend(16).max(L::Int::splat(-snorm_max(16))))
+        code.each(|c| c.sign_extend(16).max(L::Int::splat(-snorm_max(16))))
     }
 }
 
@@ -124,7 +123,7 @@ impl Grid for Halves {
     type Words = Three;
     const STEPS: [f32; 3] = [1.0; 3];
     const LENGTHS: i32 = 1025;
-    const SLACK: f32 = 0.0;
+    const DISTINCT: bool = false;
 
     #[inline(always)]
     fn length<L: Lane>(n: L, _: L) -> L {
@@ -140,23 +139,39 @@ impl Grid for Halves {
     }
     #[inline(always)]
     fn pack<L: Lane>(v: [L::Int; 3]) -> [L::Int; 3] {
-        v.map(|i| half::to_bits::<L>(i))
+        v.each(|i| half::to_bits::<L>(i))
     }
     #[inline(always)]
     fn unpack<L: Lane>(code: [L::Int; 3]) -> [L::Int; 3] {
-        code.map(|bits| half::from_bits::<L>(bits, half::GREATEST))
+        code.each(|bits| half::from_bits::<L>(bits, half::GREATEST))
     }
 }
 
 impl<G: Grid> Cartesian<G> {
     #[inline(always)]
     fn nearest<L: Lane>(v: [L; 3]) -> [L::Int; 3] {
-        core::array::from_fn(|i| G::nearest(v[i], L::splat(G::STEPS[i])))
+        [0, 1, 2].each(|i: usize| G::nearest(v[i], L::splat(G::STEPS[i])))
     }
 
     #[inline(always)]
     fn values<L: Lane>(point: [L::Int; 3]) -> [L; 3] {
-        core::array::from_fn(|i| G::value(point[i], L::splat(1.0 / G::STEPS[i])))
+        [0, 1, 2].each(|i: usize| G::value(point[i], L::splat(1.0 / G::STEPS[i])))
+    }
+
+    /// Of the points in the direction of `point`, which is not zero, the one whose length is nearest to 1.
+    #[inline(always)]
+    fn nearest_to_unit<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
+        let [x, y, z] = point.each(|i| L::from_int(i.abs()));
+        let divisor = gcd(gcd(x, y), z);
+        let primitive = point.each(|i| L::from_int(i) / divisor);
+        let values = [0, 1, 2].each(|i: usize| primitive[i] * L::splat(1.0 / G::STEPS[i]));
+        // As many times as bring it nearest to 1, but not beyond the grid.
+        let times = inv_sqrt(length_squared(values)).round();
+        let room = [0, 1, 2].each(|i: usize| {
+            (L::splat(G::STEPS[i] + 0.5) / primitive[i].abs().greater(L::splat(1e-3))).floor()
+        });
+        let times = times.lesser(room[0]).lesser(room[1]).lesser(room[2]);
+        primitive.each(|c| (c * times).round_int())
     }
 
     #[inline(always)]
@@ -167,11 +182,16 @@ impl<G: Grid> Cartesian<G> {
     }
 }
 
-/// What the search over lengths has found: a point, its distance from the target, and that of its length from 1.
-struct Found<L: Lane> {
-    point: [L::Int; 3],
-    distance: L,
-    off_unit: L,
+/// The greatest common divisor of integers from 0 to 2^12.
+#[inline(always)]
+fn gcd<L: Lane>(mut a: L, mut b: L) -> L {
+    let zero = L::zero();
+    while zero.lt(b).any() {
+        let open = zero.lt(b);
+        let rest = a - (a / b.greater(L::splat(1.0))).floor() * b;
+        (a, b) = (L::select(open, b, a), L::select(open, rest, b));
+    }
+    a
 }
 
 /// One target, seen along its largest component.
@@ -190,48 +210,68 @@ impl<L: Lane> Search<L> {
         let unit = normalize(v);
         let off = (length_squared(v) - L::splat(1.0)).abs();
         let decoded = off.lt(L::splat(6e-7));
-        let target = core::array::from_fn(|i| L::select(decoded, v[i], unit[i]));
-        let [x, y, z] = target.map(|c| c.abs());
-        let [step_x, step_y, step_z] = G::STEPS.map(|s| L::splat(1.0 / s));
+        let target = [0, 1, 2].each(|i: usize| L::select(decoded, v[i], unit[i]));
+        let [x, y, z] = target.each(|c| c.abs());
+        let [step_x, step_y, step_z] = G::STEPS.each(|s| L::splat(1.0 / s));
         let largest = x.greater(y).greater(z);
         let on = |c: L, step: L, other: L| L::select(largest.le(c), step, other);
         Search {
             target,
-            slope: target.map(|c| c / largest),
+            slope: target.each(|c| c / largest),
             step: on(x, step_x, on(y, step_y, step_z)),
         }
     }
 
-    /// Calls `consider` with each grid point that may lie within `reach()` of the target.
+    /// The nearest point of all lengths; of those that decode alike, the one whose length is nearest to 1.
     #[inline(always)]
-    fn walk<G: Grid>(
-        &self,
-        found: &mut Found<L>,
-        reach: impl Fn(&Found<L>) -> L,
-        consider: impl Fn(&mut Found<L>, L::Mask, [L::Int; 3], [L; 3]),
-    ) {
+    fn nearest<G: Grid>(&self) -> [L::Int; 3] {
+        let mut found = [L::Int::splat(0); 3];
+        let mut distance = L::splat(4.0);
+        let mut off_unit = L::splat(4.0);
         // The angle is at least |e| / (|length| |slope|^2), with e the rounding error of the point, but for a tenth where it is
         // large: one step in 15.
         let stretch = length_squared(self.slope);
-        let limit = |reach: L| {
-            let e = (reach * L::splat(1.1) + L::splat(3e-7)) * stretch;
+        let limit = |distance: L| {
+            let e = (sqrt(distance) * L::splat(1.1) + L::splat(3e-7)) * stretch;
             e * e
         };
-        let mut within = limit(reach(found));
+        let mut within = limit(distance);
         let mut n = G::LENGTHS;
         while n > 0 {
             let length = G::length(L::splat(n as f32), self.step);
             n -= 1;
-            let ideal = self.slope.map(|s| s * length);
-            let point = Cartesian::<G>::nearest(ideal);
-            let values = Cartesian::<G>::values::<L>(point);
-            let near = chord_squared(values, ideal).le(length * length * within)
-                & length.le(L::splat(1.0));
-            if near.any() {
-                consider(found, near, point, values);
-                within = limit(reach(found));
+            let ideal = self.slope.each(|s| s * length);
+            let mut consider = |point: [L::Int; 3]| {
+                let values = Cartesian::<G>::values::<L>(point);
+                let near = chord_squared(values, ideal).le(length * length * within)
+                    & length.le(L::splat(1.0));
+                if near.any() {
+                    let there = chord_squared(Cartesian::<G>::unit(values), self.target);
+                    let off = (sqrt(length_squared(values)) - L::splat(1.0)).abs();
+                    let alike = distance.le(there) & there.le(distance) & off.lt(off_unit);
+                    let better = near & (there.lt(distance) | alike);
+                    distance = L::select(better, there, distance);
+                    off_unit = L::select(better, off, off_unit);
+                    found = [0, 1, 2].each(|i: usize| L::Int::select(better, point[i], found[i]));
+                    within = limit(distance);
+                }
+            };
+            let rounded = Cartesian::<G>::nearest(ideal);
+            consider(rounded);
+            if G::DISTINCT {
+                // Near the diagonals the rounded corner of the cell is not always the nearest: one component may go the other way.
+                let values = Cartesian::<G>::values::<L>(rounded);
+                for axis in 0..3 {
+                    let count = |mask| L::Int::select(mask, L::Int::splat(1), L::Int::splat(0));
+                    let up = count(values[axis].lt(ideal[axis]));
+                    let down = count(ideal[axis].lt(values[axis]));
+                    let mut point = rounded;
+                    point[axis] = point[axis] + up - down;
+                    consider(point);
+                }
             }
         }
+        found
     }
 }
 
@@ -245,43 +285,9 @@ impl<G: Grid> Formula for Cartesian<G> {
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> Packed<Self, L> {
-        let search = Search::new::<G>(v);
-        let distance_to = |values: [L; 3]| chord_squared(Self::unit(values), search.target);
-        let off_unit = |values| (sqrt(length_squared::<L>(values)) - L::splat(1.0)).abs();
-        let mut found = Found {
-            point: [L::Int::splat(0); 3],
-            distance: L::splat(4.0),
-            off_unit: L::splat(4.0),
-        };
-        // A grid finer than f32 has equals only where f32 has them; then one walk is enough.
-        let fine = G::SLACK == 0.0;
-        let consider = |f: &mut Found<L>, near: L::Mask, point: [L::Int; 3], values: [L; 3]| {
-            let (distance, off) = (distance_to(values), off_unit(values));
-            let equal = f.distance.le(distance) & distance.le(f.distance) & off.lt(f.off_unit);
-            let better = near & (distance.lt(f.distance) | equal);
-            f.distance = L::select(better, distance, f.distance);
-            f.off_unit = L::select(better, off, f.off_unit);
-            f.point = core::array::from_fn(|i| L::Int::select(better, point[i], f.point[i]));
-        };
-        search.walk::<G>(&mut found, |f| sqrt(f.distance), consider);
-        if !fine {
-            // Of those that are as near but for rounding, the one whose length is nearest to 1.
-            let reach = sqrt(found.distance) + L::splat(G::SLACK);
-            found.off_unit = L::splat(4.0);
-            search.walk::<G>(
-                &mut found,
-                |_| reach,
-                |f, near, point, values| {
-                    let off = off_unit(values);
-                    let equal = distance_to(values).le(reach * reach);
-                    let better = near & equal & off.lt(f.off_unit);
-                    f.off_unit = L::select(better, off, f.off_unit);
-                    f.point =
-                        core::array::from_fn(|i| L::Int::select(better, point[i], f.point[i]));
-                },
-            );
-        }
-        G::pack::<L>(found.point)
+        let point = Search::new::<G>(v).nearest::<G>();
+        let point = if G::DISTINCT { Self::nearest_to_unit::<L>(point) } else { point };
+        G::pack::<L>(point)
     }
 
     #[inline(always)]
@@ -302,10 +308,10 @@ impl Formula for Floats {
     }
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> [L::Int; 3] {
-        v.map(|c| c.to_bits())
+        v.each(|c| c.to_bits())
     }
     #[inline(always)]
     fn decode<L: Lane>(code: [L::Int; 3]) -> [L; 3] {
-        code.map(L::from_bits)
+        code.each(L::from_bits)
     }
 }

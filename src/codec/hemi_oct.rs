@@ -10,7 +10,7 @@
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
 
 use crate::formula::{Formula, One, closest_of_four};
-use crate::lane::{Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math;
 
@@ -34,14 +34,14 @@ impl<const BITS: u32> Formula for HemiOct<BITS> {
 
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
-        pack_snorm2::<BITS, L>(Self::project(v).map(|p| p.round_int()))
+        pack_snorm2::<BITS, L>(Self::project(v).each(|p| p.round_int()))
     }
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         let max = L::Int::splat(Self::M);
         closest_of_four(v, Self::project(v), |params| {
-            let code = pack_snorm2::<BITS, L>(params.map(|p| p.max(-max).min(max)));
+            let code = pack_snorm2::<BITS, L>(params.each(|p| p.max(-max).min(max)));
             (code, Self::decode::<L>(code))
         })
     }
@@ -51,6 +51,6 @@ impl<const BITS: u32> Formula for HemiOct<BITS> {
         let [u, w] = unpack_snorm2::<BITS, L>(code);
         let z = L::Int::splat(Self::M) - u.abs().max(w.abs());
         let p = [u + w, u - w, z + z];
-        math::normalize(p.map(|c| L::from_int(c) * L::splat(0.5 / Self::M as f32)))
+        math::normalize(p.each(|c| L::from_int(c) * L::splat(0.5 / Self::M as f32)))
     }
 }

@@ -19,7 +19,7 @@
 //! Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
 
 use crate::formula::{Formula, One};
-use crate::lane::{Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math;
 
@@ -32,7 +32,7 @@ impl<const BITS: u32> Oct<BITS> {
     /// |v| on the octahedron, scaled to M.
     #[inline(always)]
     fn project<L: Lane>(v: [L; 3]) -> [L; 3] {
-        let [x, y, z] = v.map(|c| c.abs());
+        let [x, y, z] = v.each(|c| c.abs());
         let scale = L::splat(Self::M as f32) / (x + y + z);
         [x * scale, y * scale, z * scale]
     }
@@ -68,11 +68,11 @@ impl<const BITS: u32> Formula for Oct<BITS> {
         let p = Self::project(v);
         let max = L::splat(Self::M as f32);
         let one = L::splat(1.0);
-        let floor = p.map(|c| c.floor());
+        let floor = p.each(|c| c.floor());
         // The triangle around p: one short of M above the floors, or two.
         let short = max - floor[0] - floor[1] - floor[2];
         let down = L::splat(1.5).lt(short);
-        let base = floor.map(|c| L::select(down, c + one, c));
+        let base = floor.each(|c| L::select(down, c + one, c));
         let step = max - base[0] - base[1] - base[2];
         // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
         let pp = math::length_squared(p);
@@ -87,7 +87,7 @@ impl<const BITS: u32> Formula for Oct<BITS> {
         let closer = |a: ([L; 3], L, L), b: ([L; 3], L, L)| {
             let b_wins = (b.1 * a.2).lt(a.1 * b.2);
             let pick = |a, b| L::select(b_wins, b, a);
-            let q = core::array::from_fn(|i| pick(a.0[i], b.0[i]));
+            let q = [0, 1, 2].each(|i: usize| pick(a.0[i], b.0[i]));
             (q, pick(a.1, b.1), pick(a.2, b.2))
         };
         let ([i, j, _], ..) = closer(closer(corner(0), corner(1)), corner(2));
@@ -109,6 +109,6 @@ impl<const BITS: u32> Formula for Oct<BITS> {
             (magnitude ^ s) - s
         };
         let p = [copy_sign(i - fold, u), copy_sign(j - fold, w), k];
-        math::normalize(p.map(|c| L::from_int(c) * L::splat(1.0 / Self::M as f32)))
+        math::normalize(p.each(|c| L::from_int(c) * L::splat(1.0 / Self::M as f32)))
     }
 }

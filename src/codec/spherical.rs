@@ -10,8 +10,8 @@
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014. The angle of a
 //! vector near a pole comes from atan2, where acos(z) would lose half its digits.
 
-use crate::formula::{Closest, Formula, One};
-use crate::lane::{Lane, LaneInt};
+use crate::formula::{Formula, One, closest_of_four};
+use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math::{atan2_half_turns, sin_cos_half_turns, sqrt};
 
@@ -34,8 +34,10 @@ impl<const BITS: u32> Spherical<BITS> {
     fn pack<L: Lane>([u, w]: [L::Int; 2]) -> L::Int {
         let max = L::Int::splat(Self::M);
         let pole = u.abs().eq(max);
-        let seam = w.eq(-max);
-        let w = L::Int::select(pole, L::Int::splat(0), L::Int::select(seam, max, w));
+        // The seam: -M is +M, and one step beyond either is one step back from the other.
+        let w = L::Int::select((-max).lt(w), w, w + max + max);
+        let w = L::Int::select(max.lt(w), w - max - max, w);
+        let w = L::Int::select(pole, L::Int::splat(0), w);
         pack_snorm2::<BITS, L>([u, w])
     }
 }
@@ -45,23 +47,16 @@ impl<const BITS: u32> Formula for Spherical<BITS> {
 
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
-        Self::pack::<L>(Self::angles(v).map(|p| p.round_int()))
+        Self::pack::<L>(Self::angles(v).each(|p| p.round_int()))
     }
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        // In any row the nearest column is the rounded one; the row may be either neighbour.
-        let [u, w] = Self::angles(v);
-        let (row, w) = (u.round_int(), w.round_int());
-        let up = L::from_int(row).lt(u);
-        let other = row + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1));
         let max = L::Int::splat(Self::M);
-        let mut closest = Closest::to(v);
-        for u in [row, other.max(-max).min(max)] {
-            let code = Self::pack::<L>([u, w]);
-            closest.consider(code, Self::decode::<L>(code));
-        }
-        closest.code()
+        closest_of_four(v, Self::angles(v), |[u, w]| {
+            let code = Self::pack::<L>([u.max(-max).min(max), w]);
+            (code, Self::decode::<L>(code))
+        })
     }
 
     #[inline(always)]

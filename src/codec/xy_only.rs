@@ -19,7 +19,7 @@ use core::marker::PhantomData;
 
 use crate::formula::{Closest, Formula, One};
 use crate::half;
-use crate::lane::{Lane, LaneInt, LaneMask};
+use crate::lane::{Each, Lane, LaneInt, LaneMask};
 use crate::layout::{pack2, unorm_max, unpack2};
 use crate::math::{inv_sqrt, normalize, sqrt};
 
@@ -63,7 +63,8 @@ impl<const BITS: u32> Unorm<BITS> {
 impl<const BITS: u32> Grid for Unorm<BITS> {
     const GREATEST: i32 = Self::M;
     const STEP: i32 = 2;
-    const DIAGONAL: i32 = (Self::M as f64 * core::f64::consts::FRAC_1_SQRT_2) as i32 / 2 * 2 + 1;
+    const DIAGONAL: i32 =
+        ((Self::M as f64 * core::f64::consts::FRAC_1_SQRT_2) as i32 + 1) / 2 * 2 + 1;
 
     #[inline(always)]
     fn nearest<L: Lane>(x: L) -> L::Int {
@@ -89,11 +90,11 @@ impl<const BITS: u32> Grid for Unorm<BITS> {
     }
     #[inline(always)]
     fn pack<L: Lane>(params: [L::Int; 2]) -> L::Int {
-        pack2::<BITS, L>(params.map(|p| (p + L::Int::splat(Self::M)).sar(1)))
+        pack2::<BITS, L>(params.each(|p| (p + L::Int::splat(Self::M)).sar(1)))
     }
     #[inline(always)]
     fn unpack<L: Lane>(code: L::Int) -> [L::Int; 2] {
-        unpack2::<BITS, L>(code).map(|i| i.shl(1) - L::Int::splat(Self::M))
+        unpack2::<BITS, L>(code).each(|i| i.shl(1) - L::Int::splat(Self::M))
     }
 }
 
@@ -131,7 +132,7 @@ impl Grid for Halves {
     }
     #[inline(always)]
     fn unpack<L: Lane>(code: L::Int) -> [L::Int; 2] {
-        [code, code.shr(16)].map(|bits| half::from_bits::<L>(bits, half::ONE))
+        [code, code.shr(16)].each(|bits| half::from_bits::<L>(bits, half::ONE))
     }
 }
 
@@ -210,7 +211,7 @@ impl<G: Grid> Formula for XyOnly<G> {
                         q_index: L::Int| {
             let xy =
                 [L::Int::select(swap, q_index, p_index), L::Int::select(swap, p_index, q_index)];
-            let xy = Self::canonical::<L>(xy.map(|i| i.max(-greatest).min(greatest)));
+            let xy = Self::canonical::<L>(xy.each(|i| i.max(-greatest).min(greatest)));
             closest.consider_where(counts, G::pack::<L>(xy), Self::point::<L>(xy));
         };
         let neighbours = |value: L| {
