@@ -217,7 +217,7 @@ codecs! {
         Oct32: u32 = "oct32", 32 bits, 0.003736 / 0.002486 degrees, oct::Oct<32>;
     }
     "Cartesian: the three components, x in the low bits; decoding divides by the length. All six axes survive exactly." {
-        Snorm5x3: u16 = "snorm5x3", 15 bits, 3.299 / 2.710 degrees, cartesian::Cartesian<cartesian::Snorm<5, 5, 5>>;
+        Snorm5x3: u16 = "snorm5x3", 15 bits, 3.299 / 2.707 degrees, cartesian::Cartesian<cartesian::Snorm<5, 5, 5>>;
         Snorm8x3: [u8; 3] = "snorm8x3", 24 bits, 0.3920 / 0.3203 degrees, cartesian::Cartesian<cartesian::Snorm<8, 8, 8>>;
         Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, cartesian::Cartesian<cartesian::Snorm<10, 10, 10>>;
         Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, cartesian::Cartesian<cartesian::Snorm<11, 11, 10>>;
@@ -232,7 +232,7 @@ codecs! {
         Spherical20: u32 = "spherical20", 20 bits, 0.1978 / 0.1978 degrees, spherical::Spherical<20>;
         Spherical22: u32 = "spherical22", 22 bits, 0.09877 / 0.09876 degrees, spherical::Spherical<22>;
         Spherical24: [u8; 3] = "spherical24", 24 bits, 0.04937 / 0.04936 degrees, spherical::Spherical<24>;
-        Spherical32: u32 = "spherical32", 32 bits, 0.003093 / 0.003091 degrees, spherical::Spherical<32>;
+        Spherical32: u32 = "spherical32", 32 bits, 0.003093 / 0.003086 degrees, spherical::Spherical<32>;
     }
     "Hemi-oct: the +Z hemisphere, octahedral, turned so that it fills the square. Two snorm parameters, the first in the low \
      bits. +Z, +-X and +-Y survive exactly." {
