@@ -241,11 +241,11 @@ codecs! {
         HemiOct32: u32 = "HemiOct32", 32 bits, 0.002163 / 0.002151 degrees, hemi_oct::HemiOct<32>;
     }
     "XY-only: the +Z hemisphere, x and y as two unorm parameters, the first in the low bits. Of the axes, only +-X survive exactly." {
-        XyOnly16: u16 = "XYOnly16", 16 bits, 5.984 / 3.611 degrees, xy_only::XyOnly<xy_only::Unorm<16>>;
-        XyOnly24: [u8; 3] = "XYOnly24", 24 bits, 1.497 / 0.8991 degrees, xy_only::XyOnly<xy_only::Unorm<24>>;
-        XyOnly32: u32 = "XYOnly32", 32 bits, 0.3702 / 0.2248 degrees, xy_only::XyOnly<xy_only::Unorm<32>>;
+        XyOnly16: u16 = "XYOnly16", 16 bits, 6.04 / 3.611 degrees, xy_only::XyOnly<xy_only::Unorm<16>>;
+        XyOnly24: [u8; 3] = "XYOnly24", 24 bits, 1.51 / 0.8991 degrees, xy_only::XyOnly<xy_only::Unorm<24>>;
+        XyOnly32: u32 = "XYOnly32", 32 bits, 0.374 / 0.2248 degrees, xy_only::XyOnly<xy_only::Unorm<32>>;
     }
     "XY-only: the +Z hemisphere, x and y as two halves, x in the low bits. +Z, +-X and +-Y survive exactly." {
-        XyOnly32F: u32 = "XYOnly32F", 32 bits, 1.495 / 0.8989 degrees, xy_only::XyOnly<xy_only::Halves>;
+        XyOnly32F: u32 = "XYOnly32F", 32 bits, 1.51 / 0.8989 degrees, xy_only::XyOnly<xy_only::Halves>;
     }
 }

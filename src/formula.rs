@@ -14,7 +14,7 @@ pub(crate) trait Formula: 'static {
     const HEMISPHERE: bool = false;
 
     /// Brings any input into a direction that `encode` understands: finite, not zero, its largest
-    /// component from 2^-40 to 2^48.
+    /// component from 2^-40 to 2^41.
     #[inline(always)]
     fn prepare<L: Lane>([x, y, z]: [L; 3]) -> [L; 3] {
         if Self::HEMISPHERE {
@@ -130,11 +130,13 @@ fn magnitude<L: Lane>(v: [L; 3]) -> L {
 #[inline(never)]
 fn mend<L: Lane>(v: [L; 3], magnitude: L, usual: L::Mask) -> [L; 3] {
     let infinite = L::splat(f32::INFINITY).le(magnitude);
-    // 2^-80 for the huge, 2^72 for the tiny, 2^126 for the subnormal and near it (below 2^-104).
+    // The tiny times 2^72 or, near the subnormal (below 2^-104), 2^126; the huge down to 2^40, so that no sign is lost that a smaller
+    // multiple would keep.
+    let down = (L::Int::splat(127 + 40 + 127) - magnitude.to_bits().shr(23)).shl(23);
     let scale = L::select(
         magnitude.lt(L::splat(4.930_380_7e-32)),
         L::splat(8.507_059e37),
-        L::select(magnitude.lt(L::splat(1.0)), L::splat(4.722_366_5e21), L::splat(8.271_806e-25)),
+        L::select(magnitude.lt(L::splat(1.0)), L::splat(4.722_366_5e21), L::from_bits(down)),
     );
     let none = !(L::zero().lt(magnitude)); // zero or NaN
     let pole = [L::zero(), L::zero(), L::splat(1.0)];

@@ -35,6 +35,14 @@ pub(crate) fn value<L: Lane>(i: L::Int) -> L {
     L::select(negative, -v, v)
 }
 
+/// The mantissa of an ordered half, with its hidden bit: below 2^11.
+#[inline(always)]
+pub(crate) fn mantissa<L: Lane>(i: L::Int) -> L::Int {
+    let magnitude = i.abs();
+    let hidden = L::Int::splat(0x400);
+    L::Int::select(magnitude.lt(hidden), magnitude, magnitude.low(10) | hidden)
+}
+
 /// The bits of an ordered half.
 #[inline(always)]
 pub(crate) fn to_bits<L: Lane>(i: L::Int) -> L::Int {

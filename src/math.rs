@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn sine_and_cosine_are_exact_at_quarter_turns() {
         let quarters = [-1.0f32, -0.5, 0.0, 0.5, 1.0];
-        let got = quarters.map(|x| sin_cos_half_turns(x));
+        let got = quarters.map(sin_cos_half_turns);
         assert_eq!(got, [(0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (0.0, -1.0)]);
     }
 

@@ -1,13 +1,11 @@
 //! Every code of every format of up to 24 bits, and a sample of the others: what decoding and the
 //! canonical codes promise.
 
-mod common;
-
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
-use common::oracle::oracle;
-use common::*;
+use crate::common::oracle::oracle;
+use crate::common::*;
 use unitpack::Format;
 
 /// By how much the length of a decoded vector may differ from 1.

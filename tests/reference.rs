@@ -1,10 +1,8 @@
 //! Every codec against the oracle of `common/oracle.rs`, which computes in f64 what the definitions
 //! say.
 
-mod common;
-
-use common::oracle::{Oracle, oracle};
-use common::*;
+use crate::common::oracle::{Oracle, oracle};
+use crate::common::*;
 use unitpack::{Codec, Format, HemiOct16, Oct16, Oct24, Snorm8x3, Snorm11_11_10, XyOnly32F};
 
 /// The greatest angle between a decoded vector and the exact one.

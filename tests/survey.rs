@@ -4,9 +4,7 @@
 //! A row is reproduced if the mean is within 0.5 % and the maximum within 4 % of the published one.
 //! [`expectation`] names the rows for which that is not asked, and why.
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use unitpack::Format;
 
 #[derive(Clone, Copy, PartialEq)]

@@ -43,6 +43,8 @@ pub(crate) trait Grid: 'static {
     /// Nearest grid point, ties to even.
     fn nearest<L: Lane>(x: L, steps: L) -> L::Int;
     fn value<L: Lane>(i: L::Int, step: L) -> L;
+    /// Of the points in the direction of `point`, which is not zero, the one whose length is nearest to 1.
+    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3];
     fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L>
     where
         Self: Sized;
@@ -71,6 +73,10 @@ impl<const X: u32, const Y: u32, const Z: u32> Grid for Snorm<X, Y, Z> {
     #[inline(always)]
     fn value<L: Lane>(i: L::Int, step: L) -> L {
         L::from_int(i) * step
+    }
+    #[inline(always)]
+    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
+        integer_representative::<L>(point, Self::STEPS)
     }
     #[inline(always)]
     fn pack<L: Lane>([x, y, z]: [L::Int; 3]) -> L::Int {
@@ -107,6 +113,10 @@ impl Grid for Snorm16 {
         L::from_int(i) * step
     }
     #[inline(always)]
+    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
+        integer_representative::<L>(point, Self::STEPS)
+    }
+    #[inline(always)]
     fn pack<L: Lane>(v: [L::Int; 3]) -> [L::Int; 3] {
         v
     }
@@ -138,6 +148,40 @@ impl Grid for Halves {
         half::value(i)
     }
     #[inline(always)]
+    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
+        // Each value is an odd integer times a power of two, or zero.
+        let values = point.each(|i| half::value::<L>(i));
+        let odd = point.each(|i| {
+            let mantissa = half::mantissa::<L>(i);
+            let lowest = L::from_int(mantissa & -mantissa).greater(L::splat(1.0));
+            L::from_int(mantissa) / lowest
+        });
+        let divisor = gcd(gcd(odd[0], odd[1]), odd[2]);
+        let primitive = values.each(|c| c / divisor);
+        // So many times, and powers of two, keep all mantissas below 2^11.
+        let room = (L::splat(2047.5) * divisor / odd[0].greater(odd[1]).greater(odd[2])).floor();
+        let times = inv_sqrt(length_squared(primitive));
+        // The least power of two for which that is enough, but none that would cut below 2^-24.
+        let over = times / room;
+        let power =
+            L::from_bits((over.to_bits() + L::Int::splat(0x7F_FFFF)) & L::Int::splat(0x7F80_0000));
+        let units = [0, 1, 2].each(|i: usize| {
+            let zero = odd[i].le(L::zero());
+            let unit = values[i].abs() / odd[i].greater(L::splat(1.0));
+            L::select(zero, L::splat(1.0), unit)
+        });
+        let finest = L::splat(1.0 / 16_777_216.0) / units[0].lesser(units[1]).lesser(units[2]);
+        let power = power.greater(finest);
+        let times = (times / power).round();
+        // The largest component is 1 at most.
+        let [x, y, z] = primitive.each(|c| (c * power).abs());
+        let largest = x.greater(y).greater(z);
+        let too_long = L::splat(1.0).lt(largest * times);
+        let times = L::select(too_long, times - L::splat(1.0), times);
+        let times = L::select(times.lt(L::splat(0.5)), L::splat(0.5), times);
+        primitive.each(|c| half::nearest(c * power * times))
+    }
+    #[inline(always)]
     fn pack<L: Lane>(v: [L::Int; 3]) -> [L::Int; 3] {
         v.each(|i| half::to_bits::<L>(i))
     }
@@ -158,22 +202,6 @@ impl<G: Grid> Cartesian<G> {
         [0, 1, 2].each(|i: usize| G::value(point[i], L::splat(1.0 / G::STEPS[i])))
     }
 
-    /// Of the points in the direction of `point`, which is not zero, the one whose length is nearest to 1.
-    #[inline(always)]
-    fn nearest_to_unit<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
-        let [x, y, z] = point.each(|i| L::from_int(i.abs()));
-        let divisor = gcd(gcd(x, y), z);
-        let primitive = point.each(|i| L::from_int(i) / divisor);
-        let values = [0, 1, 2].each(|i: usize| primitive[i] * L::splat(1.0 / G::STEPS[i]));
-        // As many times as bring it nearest to 1, but not beyond the grid.
-        let times = inv_sqrt(length_squared(values)).round();
-        let room = [0, 1, 2].each(|i: usize| {
-            (L::splat(G::STEPS[i] + 0.5) / primitive[i].abs().greater(L::splat(1e-3))).floor()
-        });
-        let times = times.lesser(room[0]).lesser(room[1]).lesser(room[2]);
-        primitive.each(|c| (c * times).round_int())
-    }
-
     #[inline(always)]
     fn unit<L: Lane>(values: [L; 3]) -> [L; 3] {
         let zero = length_squared(values).le(L::zero());
@@ -182,7 +210,23 @@ impl<G: Grid> Cartesian<G> {
     }
 }
 
-/// The greatest common divisor of integers from 0 to 2^12.
+/// [`Grid::representative`] where the values are integers over `steps`.
+#[inline(always)]
+fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3]) -> [L::Int; 3] {
+    let [x, y, z] = point.each(|i| L::from_int(i.abs()));
+    let divisor = gcd(gcd(x, y), z);
+    let primitive = point.each(|i| L::from_int(i) / divisor);
+    let values = [0, 1, 2].each(|i: usize| primitive[i] * L::splat(1.0 / steps[i]));
+    // As many times as bring it nearest to 1, but not beyond the grid.
+    let times = inv_sqrt(length_squared(values)).round();
+    let room = [0, 1, 2].each(|i: usize| {
+        (L::splat(steps[i] + 0.5) / primitive[i].abs().greater(L::splat(0.01))).floor()
+    });
+    let times = times.lesser(room[0]).lesser(room[1]).lesser(room[2]);
+    primitive.each(|c| (c * times).round_int())
+}
+
+/// The greatest common divisor of integers from 0 to 2^16.
 #[inline(always)]
 fn gcd<L: Lane>(mut a: L, mut b: L) -> L {
     let zero = L::zero();
@@ -206,6 +250,10 @@ struct Search<L: Lane> {
 impl<L: Lane> Search<L> {
     #[inline(always)]
     fn new<G: Grid>(v: [L; 3]) -> Self {
+        // Bring the length between sqrt(1/2) and sqrt(2) by a power of two.
+        let exponent = length_squared(v).to_bits().sar(23) - L::Int::splat(126);
+        let scale = L::from_bits((L::Int::splat(127) - exponent.sar(1)).shl(23));
+        let v = v.each(|c| c * scale);
         // A decoded vector is not divided again, so that its own code is at distance zero.
         let unit = normalize(v);
         let off = (length_squared(v) - L::splat(1.0)).abs();
@@ -246,6 +294,9 @@ impl<L: Lane> Search<L> {
                 let near = chord_squared(values, ideal).le(length * length * within)
                     & length.le(L::splat(1.0));
                 if near.any() {
+                    // Where f32 does not tell neighbours apart, only canonical points compete.
+                    let point = if G::DISTINCT { point } else { G::representative::<L>(point) };
+                    let values = Cartesian::<G>::values::<L>(point);
                     let there = chord_squared(Cartesian::<G>::unit(values), self.target);
                     let off = (sqrt(length_squared(values)) - L::splat(1.0)).abs();
                     let alike = distance.le(there) & there.le(distance) & off.lt(off_unit);
@@ -286,7 +337,7 @@ impl<G: Grid> Formula for Cartesian<G> {
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> Packed<Self, L> {
         let point = Search::new::<G>(v).nearest::<G>();
-        let point = if G::DISTINCT { Self::nearest_to_unit::<L>(point) } else { point };
+        let point = if G::DISTINCT { G::representative::<L>(point) } else { point };
         G::pack::<L>(point)
     }
 

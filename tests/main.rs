@@ -1,0 +1,10 @@
+//! All tests in one program: every codec is compiled once, not once for each file.
+
+mod common;
+
+mod agree;
+mod exhaustive;
+mod golden;
+mod max_error;
+mod reference;
+mod survey;
