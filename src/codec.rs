@@ -49,7 +49,12 @@ pub trait Codec: Copy + 'static {
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
     fn decode_soa(codes: &[Self::Code], v: SoaMut<'_>) -> Result<(), LengthMismatch>;
 
-    /// [`encode`](Codec::encode) for arrays of structures of `N` floats, of which the first three are x, y and z. `N < 3` does not compile.
+    /// [`encode`](Codec::encode) for arrays of structures of `N` floats, of which the first three are x, y and z. `N < 3` does not compile:
+    ///
+    /// ```compile_fail
+    /// use unitpack::{Codec, Oct16};
+    /// let _ = Oct16::encode_aos(&[[1.0f32, 0.0]], &mut [0]);
+    /// ```
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
