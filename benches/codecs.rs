@@ -1,6 +1,6 @@
-//! Vectors per second of every codec: `encode`, `precise` and `decode`, with 16 Ki vectors in cache and with
-//! 16 Mi from memory. Beside each `batch` stands `scalar`, a plain loop over the codec's function for one
-//! vector.
+//! Vectors per second of every codec: `encode`, `precise` and `decode`, with 16 Ki vectors in cache
+//! and with 16 Mi from memory. Beside each `batch` stands `scalar`, a plain loop over the codec's
+//! function for one vector.
 //!
 //! Names are `place/operation/format/loop`, to be filtered with a regular expression:
 //!
@@ -10,7 +10,8 @@
 //! cargo bench --bench codecs -- 'memory/.*/batch'
 //! ```
 //!
-//! A precise encoder too slow for so many vectors takes fewer, and its name says how many: `batch of 65536`.
+//! A precise encoder too slow for so many vectors takes fewer, and its name says how many: `batch
+//! of 65536`.
 
 use std::cell::RefCell;
 use std::hint::black_box;
@@ -133,8 +134,8 @@ impl Visitor for Bench<'_, '_> {
 
 type Loop<C> = fn(Operation, &mut Buffers<'_, C>);
 
-/// How many vectors the precise encoder gets through in time: 16 Mi over a power of 16, so that the names
-/// of the benchmarks stay the same from run to run.
+/// How many vectors the precise encoder gets through in time: 16 Mi over a power of 16, so that the
+/// names of the benchmarks stay the same from run to run.
 fn affordable<C: Codec>(data: &RefCell<Data>, run: Loop<C>) -> usize {
     const PROBE: usize = 256;
     let mut data = data.borrow_mut();

@@ -28,8 +28,8 @@ pub struct SoaMut<'a> {
     pub z: &'a mut [f32],
 }
 
-/// Whether this target has vectors that eight lanes can stand on. Without them one lane is quicker and smaller, and
-/// gives the same bits.
+/// Whether this target has vectors that eight lanes can stand on. Without them one lane is quicker
+/// and smaller, and gives the same bits.
 const EIGHT_LANES: bool = cfg!(any(
     target_feature = "sse2",
     target_feature = "simd128",
@@ -187,7 +187,8 @@ fn ones_mut<T>(slice: &mut [T]) -> &mut [[T; 1]] {
     slice.as_chunks_mut().0
 }
 
-/// A few vectors on the stack, between a layout of the caller's and the loops over structures of arrays.
+/// A few vectors on the stack, between a layout of the caller's and the loops over structures of
+/// arrays.
 struct Stage {
     x: [f32; STAGE],
     y: [f32; STAGE],

@@ -13,19 +13,22 @@ mod xy_only;
 
 /// A representation of unit vectors: what a bit pattern means, and how to get there.
 ///
-/// The promises that hold for every codec are listed on the [crate's page](crate#promises). In short: any input is allowed and only its
-/// direction matters; zero and NaN encode as +Z, an infinite component as the limit direction, and a hemisphere codec takes z < 0 as 0;
-/// every bit pattern decodes to a unit vector; all entry points give the same bits.
+/// The promises that hold for every codec are listed on the [crate's page](crate#promises). In
+/// short: any input is allowed and only its direction matters; zero and NaN encode as +Z, an
+/// infinite component as the limit direction, and a hemisphere codec takes z < 0 as 0; every bit
+/// pattern decodes to a unit vector; all entry points give the same bits.
 pub trait Codec: Copy + 'static {
     /// One packed vector. Its bits are laid out as the codec's page says.
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;
     /// The run-time twin of this type.
     const FORMAT: Format;
 
-    /// Packs a vector of any length, rounding each parameter to nearest, ties to even. Gives a canonical code.
+    /// Packs a vector of any length, rounding each parameter to nearest, ties to even. Gives a
+    /// canonical code.
     fn encode(v: [f32; 3]) -> Self::Code;
 
-    /// Packs a vector of any length into the code that decodes closest to it, up to `f32` rounding. Gives a canonical code.
+    /// Packs a vector of any length into the code that decodes closest to it, up to `f32` rounding.
+    /// Gives a canonical code.
     fn encode_precise(v: [f32; 3]) -> Self::Code;
 
     /// Unpacks a code, any bit pattern, into a vector of length 1 to 2.5e-7.
@@ -182,13 +185,15 @@ macro_rules! codecs {
                 match self {$($(Format::$name => <$formula>::HEMISPHERE,)*)*}
             }
 
-            /// The greatest error of `encode`, in degrees. For any input with z >= 0 if the format is a hemisphere's.
+            /// The greatest error of `encode`, in degrees. For any input with z >= 0 if the format
+            /// is a hemisphere's.
             #[inline]
             pub const fn max_error_degrees(self) -> f64 {
                 match self {$($(Format::$name => $fast,)*)*}
             }
 
-            /// The greatest error of `encode_precise`, in degrees. For any input with z >= 0 if the format is a hemisphere's.
+            /// The greatest error of `encode_precise`, in degrees. For any input with z >= 0 if the
+            /// format is a hemisphere's.
             #[inline]
             pub const fn max_error_precise_degrees(self) -> f64 {
                 match self {$($(Format::$name => $precise,)*)*}
@@ -203,7 +208,8 @@ macro_rules! codecs {
     };
 }
 
-// THE TABLE. One row per codec: type, code, name, bits, greatest error of `encode` and `encode_precise`, formula.
+// THE TABLE. One row per codec: type, code, name, bits, greatest error of `encode` and
+// `encode_precise`, formula.
 codecs! {
     "[Octahedral](https://jcgt.org/published/0003/02/01/): the sphere unfolded from an octahedron into a square. Two snorm \
      parameters, the first in the low bits. All six axes survive exactly." {

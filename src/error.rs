@@ -12,7 +12,8 @@ pub enum LengthMismatch {
     /// Array of structures: the number of vectors, and of codes.
     #[allow(missing_docs)]
     Aos { vectors: usize, codes: usize },
-    /// Codes as bytes: the number of x, y and z components, of bytes, and of bytes that one code takes.
+    /// Codes as bytes: the number of x, y and z components, of bytes, and of bytes that one code
+    /// takes.
     #[allow(missing_docs)]
     Bytes { x: usize, y: usize, z: usize, bytes: usize, code_size: usize },
     /// Transcoding: the number of codes to read, and to write.

@@ -1,4 +1,5 @@
-//! Codecs chosen at run time: what is the same for all. [`Format`] itself stands beside the table, in `codec.rs`.
+//! Codecs chosen at run time: what is the same for all. [`Format`] itself stands beside the table,
+//! in `codec.rs`.
 
 use core::fmt;
 use core::str::FromStr;
@@ -15,7 +16,8 @@ pub trait Visitor {
 }
 
 impl Format {
-    /// Encodes as [`Codec::encode_soa`] does, to little-endian codes without gaps, at any alignment.
+    /// Encodes as [`Codec::encode_soa`] does, to little-endian codes without gaps, at any
+    /// alignment.
     ///
     /// `bytes` is [`code_size`](Format::code_size) times as long as `v.x`, `v.y` and `v.z`.
     ///
@@ -26,7 +28,8 @@ impl Format {
         self.visit(EncodeBytes::<false> { v, bytes })
     }
 
-    /// Encodes as [`Codec::encode_soa_precise`] does, to little-endian codes without gaps, at any alignment.
+    /// Encodes as [`Codec::encode_soa_precise`] does, to little-endian codes without gaps, at any
+    /// alignment.
     ///
     /// `bytes` is [`code_size`](Format::code_size) times as long as `v.x`, `v.y` and `v.z`.
     ///

@@ -5,8 +5,8 @@ use bytemuck::Pod;
 use crate::lane::{Each, Lane, LaneInt, LaneMask};
 use crate::math;
 
-/// A representation, as arithmetic on lanes. A family implements it once; [`batch`](crate::batch) makes
-/// every entry point of [`Codec`](crate::Codec) from it.
+/// A representation, as arithmetic on lanes. A family implements it once; [`batch`](crate::batch)
+/// makes every entry point of [`Codec`](crate::Codec) from it.
 pub(crate) trait Formula: 'static {
     /// How many 32-bit integers hold a code: [`One`] or [`Three`].
     type Words: Words;
@@ -107,8 +107,8 @@ stored!(
 stored!(u16: Three);
 stored!(u32: Three);
 
-/// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become +Z, +Z, the limit direction, and
-/// `v` times a power of two.
+/// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become +Z, +Z, the limit
+/// direction, and `v` times a power of two.
 #[inline(always)]
 fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
     const LEAST: f32 = 9.094_947e-13; // 2^-40
@@ -130,8 +130,8 @@ fn magnitude<L: Lane>(v: [L; 3]) -> L {
 #[inline(never)]
 fn mend<L: Lane>(v: [L; 3], magnitude: L, usual: L::Mask) -> [L; 3] {
     let infinite = L::splat(f32::INFINITY).le(magnitude);
-    // The tiny times 2^72 or, near the subnormal (below 2^-104), 2^126; the huge down to 2^40, so that no sign is lost that a smaller
-    // multiple would keep.
+    // The tiny times 2^72 or, near the subnormal (below 2^-104), 2^126; the huge down to 2^40, so
+    // that no sign is lost that a smaller multiple would keep.
     let down = (L::Int::splat(127 + 40 + 127) - magnitude.to_bits().shr(23)).shl(23);
     let scale = L::select(
         magnitude.lt(L::splat(4.930_380_7e-32)),
@@ -194,8 +194,8 @@ impl<L: Lane> Closest<L> {
     }
 }
 
-/// The closest code of those whose two parameters are each rounded down or up. `decode` turns parameters, which may be one
-/// step out of range, into a canonical code and its vector.
+/// The closest code of those whose two parameters are each rounded down or up. `decode` turns
+/// parameters, which may be one step out of range, into a canonical code and its vector.
 #[inline(always)]
 pub(crate) fn closest_of_four<L: Lane>(
     target: [L; 3],

@@ -7,13 +7,15 @@ pub(crate) const GREATEST: i32 = 0x7BFF;
 /// 1.0.
 pub(crate) const ONE: i32 = 0x3C00;
 
-/// A finite half as a sign and a magnitude in order: -5 is the half with bits 0x8005, 5 that with bits 0x0005. There is one zero.
+/// A finite half as a sign and a magnitude in order: -5 is the half with bits 0x8005, 5 that with
+/// bits 0x0005. There is one zero.
 ///
 /// The nearest to `x`, ties to even, for |x| < 65520.
 #[inline(always)]
 pub(crate) fn nearest<L: Lane>(x: L) -> L::Int {
     let bits = x.abs().to_bits();
-    // Normal: round the 13 low bits of the mantissa away, then move the exponent's bias from 127 to 15.
+    // Normal: round the 13 low bits of the mantissa away, then move the exponent's bias from 127 to
+    // 15.
     let even = bits.shr(13).low(1);
     let normal = (bits + L::Int::splat(0xFFF) + even).shr(13) - L::Int::splat(112 << 10);
     // Subnormal: in [0.5, 1) the mantissa counts units of 2^-24.
@@ -49,7 +51,8 @@ pub(crate) fn to_bits<L: Lane>(i: L::Int) -> L::Int {
     i.abs() | (i & L::Int::splat(i32::MIN)).shr(16)
 }
 
-/// The ordered half of any 16 bits, its magnitude cut to `greatest`: infinities and NaN are cut as well.
+/// The ordered half of any 16 bits, its magnitude cut to `greatest`: infinities and NaN are cut as
+/// well.
 #[inline(always)]
 pub(crate) fn from_bits<L: Lane>(bits: L::Int, greatest: i32) -> L::Int {
     let magnitude = bits.low(15).min(L::Int::splat(greatest));

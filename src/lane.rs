@@ -150,7 +150,8 @@ pub(crate) trait LaneMask:
     fn any(self) -> bool;
 }
 
-/// `map` for the components of a vector, without the detours that keep `array::map` from being inlined.
+/// `map` for the components of a vector, without the detours that keep `array::map` from being
+/// inlined.
 pub(crate) trait Each<T> {
     type Of<U>;
     fn each<U>(self, f: impl Fn(T) -> U) -> Self::Of<U>;

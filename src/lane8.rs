@@ -1,7 +1,7 @@
 //! The eight-lane form of [`Lane`], on `wide`.
 //!
-//! Only operations that `wide` computes exactly on every target are used: see `clippy.toml` for those
-//! that are banned.
+//! Only operations that `wide` computes exactly on every target are used: see `clippy.toml` for
+//! those that are banned.
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 

@@ -2,8 +2,8 @@
 
 use crate::lane::{Each, Lane, LaneInt};
 
-/// Two parameters of `BITS / 2` bits each: the first in the low bits. At 24 bits, the RGB8 bytes of the
-/// survey's Listing 4 (Cigolle et al. 2014): `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
+/// Two parameters of `BITS / 2` bits each: the first in the low bits. At 24 bits, the RGB8 bytes of
+/// the survey's Listing 4 (Cigolle et al. 2014): `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
 #[inline(always)]
 pub(crate) fn pack2<const BITS: u32, L: Lane>([u, v]: [L::Int; 2]) -> L::Int {
     if BITS == 24 {
@@ -33,8 +33,8 @@ pub(crate) const fn unorm_max(bits: u32) -> i32 {
     ((1u64 << bits) - 1) as i32
 }
 
-/// Two snorm parameters, each from -M to M with M = 2^(BITS/2 - 1) - 1: two's complement, but at 24 bits
-/// biased by M as the survey's listings have it.
+/// Two snorm parameters, each from -M to M with M = 2^(BITS/2 - 1) - 1: two's complement, but at 24
+/// bits biased by M as the survey's listings have it.
 #[inline(always)]
 pub(crate) fn pack_snorm2<const BITS: u32, L: Lane>(params: [L::Int; 2]) -> L::Int {
     if BITS == 24 {

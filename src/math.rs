@@ -4,11 +4,12 @@
 
 use crate::lane::{Each, Lane, LaneInt};
 
-/// 1/sqrt(x) for normal x > 0, with relative error below 1.1e-7; exact at 1. A large finite number at 0.
+/// 1/sqrt(x) for normal x > 0, with relative error below 1.1e-7; exact at 1. A large finite number
+/// at 0.
 ///
-/// A first guess from the exponent (Jan Kadlec, "Rychla inverzni odmocnina", 2010: error 6.5e-4), then one
-/// step of Householder's method of third order. No division and no square root, so it costs the same
-/// order of time everywhere, also where there is no hardware for either.
+/// A first guess from the exponent (Jan Kadlec, "Rychla inverzni odmocnina", 2010: error 6.5e-4),
+/// then one step of Householder's method of third order. No division and no square root, so it
+/// costs the same order of time everywhere, also where there is no hardware for either.
 #[inline(always)]
 pub(crate) fn inv_sqrt<L: Lane>(x: L) -> L {
     let guess = L::from_bits(L::Int::splat(0x5F1F_FFF9) - x.to_bits().shr(1));
@@ -35,14 +36,16 @@ pub(crate) fn chord_squared<L: Lane>(a: [L; 3], b: [L; 3]) -> L {
     length_squared([a[0] - b[0], a[1] - b[1], a[2] - b[2]])
 }
 
-/// v / |v|, whose greatest component is from 2^-60 to 2^60; its length is 1 to 2.5e-7. An axis stays exact if its length is 1.
+/// v / |v|, whose greatest component is from 2^-60 to 2^60; its length is 1 to 2.5e-7. An axis
+/// stays exact if its length is 1.
 #[inline(always)]
 pub(crate) fn normalize<L: Lane>(v: [L; 3]) -> [L; 3] {
     let r = inv_sqrt(length_squared(v));
     v.each(|c| c * r)
 }
 
-/// (sin, cos) of |x| <= 2 half turns, with error below 1.2e-7; exact at multiples of a quarter turn.
+/// (sin, cos) of |x| <= 2 half turns, with error below 1.2e-7; exact at multiples of a quarter
+/// turn.
 #[inline(always)]
 pub(crate) fn sin_cos_half_turns<L: Lane>(x: L) -> (L, L) {
     // Nearest quarter turn, and what is left of it: |r| <= 1/4.
@@ -66,13 +69,15 @@ pub(crate) fn sin_cos_half_turns<L: Lane>(x: L) -> (L, L) {
     (sign(quarter, sin), sign(quarter + L::Int::splat(1), cos))
 }
 
-/// The angle of (x, y) in half turns, in (-1, 1], with error below 1.5e-7; 0 at (0, 0). Zeros have no sign.
-/// Exact on the axes and the diagonals. For components that are zero or from 2^-100 to 2^60.
+/// The angle of (x, y) in half turns, in (-1, 1], with error below 1.5e-7; 0 at (0, 0). Zeros have
+/// no sign. Exact on the axes and the diagonals. For components that are zero or from 2^-100 to
+/// 2^60.
 #[inline(always)]
 pub(crate) fn atan2_half_turns<L: Lane>(y: L, x: L) -> L {
     let (ax, ay) = (x.abs(), y.abs());
     let (long, short) = (ax.greater(ay), ax.lesser(ay));
-    // Above tan(22.5 degrees), measure from the diagonal: atan(s/l) = 45 degrees + atan((s-l)/(s+l)).
+    // Above tan(22.5 degrees), measure from the diagonal: atan(s/l) = 45 degrees +
+    // atan((s-l)/(s+l)).
     let steep = (long * L::splat(0.414_213_57)).lt(short);
     let over = L::select(steep, short - long, short);
     let under = L::select(steep, short + long, long);

@@ -55,7 +55,8 @@ fn digest(bytes: impl IntoIterator<Item = u8>) -> u64 {
     })
 }
 
-/// Of the bits of floats. All NaN count as one, since moving them changes their bits on some machines.
+/// Of the bits of floats. All NaN count as one, since moving them changes their bits on some
+/// machines.
 fn digest_floats<'a>(floats: impl IntoIterator<Item = &'a f32>) -> u64 {
     let bits = |c: &f32| if c.is_nan() { 0x7FC0_0000 } else { c.to_bits() };
     digest(floats.into_iter().flat_map(|c| bits(c).to_le_bytes()))
@@ -93,7 +94,8 @@ fn vectors() -> [Vec<f32>; 3] {
     let nan = f32::from_bits(0x7FC0_0000);
     vectors.extend([[nan, 0.0, 1.0], [1.0, nan, f32::INFINITY], [nan, nan, nan]]);
 
-    // Ties of a component, of two, and of both parameters of the octahedral square; and beside them.
+    // Ties of a component, of two, and of both parameters of the octahedral square; and beside
+    // them.
     for bits in 4..=16 {
         let steps = ((1 << bits) - 1) as f32;
         for _ in 0..24 {
@@ -124,7 +126,8 @@ fn vectors() -> [Vec<f32>; 3] {
     [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect())
 }
 
-/// Bytes of codes: runs of one byte, then random ones. A multiple of every size of code up to 12 bytes.
+/// Bytes of codes: runs of one byte, then random ones. A multiple of every size of code up to 12
+/// bytes.
 fn codes() -> Vec<u8> {
     let mut random = Random(2);
     let runs = (0..=255).flat_map(|byte| [byte; 24]);

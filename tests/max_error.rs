@@ -1,6 +1,7 @@
 //! The greatest errors that the table states are upper bounds, and tight.
 //!
-//! Random directions, then a climb from the worst of them. The figures printed are what to put into the table.
+//! Random directions, then a climb from the worst of them. The figures printed are what to put into
+//! the table.
 
 use unitpack::{Codec, Format, Visitor};
 
@@ -32,7 +33,8 @@ impl Visitor for Worst<'_> {
             }
             v
         };
-        // A third of them close to an axis, a third close to a plane between two: the worst places of some formats.
+        // A third of them close to an axis, a third close to a plane between two: the worst places
+        // of some formats.
         let mut start = |i: usize| {
             let mut v = rng.direction();
             let small = 10f32.powf(-5.0 * rng.unit() as f32);
@@ -87,7 +89,8 @@ fn stated_maxima_hold_and_are_tight() {
                 "{format} {} {measured:.7} of {stated}",
                 if precise { "precise" } else { "fast" }
             );
-            // 32-bit formats and finer: what f32 rounding moves is a part of the figure, and rarely met.
+            // 32-bit formats and finer: what f32 rounding moves is a part of the figure, and rarely
+            // met.
             let tight = if slow { 0.3 } else { 0.9 };
             if measured > stated || measured < tight * stated {
                 wrong += &format!(

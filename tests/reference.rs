@@ -87,7 +87,8 @@ fn fast_encoding_agrees() {
 }
 
 /// How many vectors to look at: the search in the oracle, and in the encoder of the widest formats,
-/// is slow. In snorm8x3 rounding misses the nearest code for so few vectors that it takes many to see.
+/// is slow. In snorm8x3 rounding misses the nearest code for so few vectors that it takes many to
+/// see.
 fn nearest_count(format: Format) -> usize {
     match format.name() {
         "snorm16x3" => 400,

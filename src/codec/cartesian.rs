@@ -5,17 +5,19 @@
 //! decode   the three values, divided by their length; (0, 0, 0) reads as +Z
 //! ```
 //!
-//! Decoding divides by the length, so a grid point stands for its direction, and the precise encoder may take any length:
-//! it tries every value of the largest component, rounding the other two, and keeps the nearest direction.
+//! Decoding divides by the length, so a grid point stands for its direction, and the precise
+//! encoder may take any length: it tries every value of the largest component, rounding the other
+//! two, and keeps the nearest direction.
 //!
-//! Canonical: of the patterns of one direction, such as (1, 1, 0) and (90, 90, 0), the one whose length is nearest to 1. That
-//! is the one rounding gives. On the grids that are finer than f32, snorm16x3 and float16x3, those that decode alike count as one. Axes survive exactly. In snorm, -M-1 reads as -M;
-//! in halves, infinities and NaN read as 65504.
+//! Canonical: of the patterns of one direction, such as (1, 1, 0) and (90, 90, 0), the one whose
+//! length is nearest to 1. That is the one rounding gives. On the grids that are finer than f32,
+//! snorm16x3 and float16x3, those that decode alike count as one. Axes survive exactly. In snorm,
+//! -M-1 reads as -M; in halves, infinities and NaN read as 65504.
 //!
 //! [`Floats`] stores the bits of the input as they are, and gives them back.
 //!
-//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014; the search over lengths:
-//! Kaplanyan, "CryENGINE 3: Reaching the Speed of Light", 2010.
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014; the search over lengths: Kaplanyan, "CryENGINE 3: Reaching the Speed of Light", 2010.
 
 use core::marker::PhantomData;
 
@@ -35,7 +37,8 @@ pub(crate) trait Grid: 'static {
     const STEPS: [f32; 3];
     /// How many values the search for the largest component tries.
     const LENGTHS: i32;
-    /// Whether f32 tells all directions of the grid apart. It is then so coarse that the nearest may be half a step off.
+    /// Whether f32 tells all directions of the grid apart. It is then so coarse that the nearest
+    /// may be half a step off.
     const DISTINCT: bool;
 
     /// The `n`th value for the largest component, `n` from 1 to [`LENGTHS`](Self::LENGTHS).
@@ -43,7 +46,8 @@ pub(crate) trait Grid: 'static {
     /// Nearest grid point, ties to even.
     fn nearest<L: Lane>(x: L, steps: L) -> L::Int;
     fn value<L: Lane>(i: L::Int, step: L) -> L;
-    /// Of the points in the direction of `point`, which is not zero, the one whose length is nearest to 1.
+    /// Of the points in the direction of `point`, which is not zero, the one whose length is
+    /// nearest to 1.
     fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3];
     fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L>
     where
@@ -270,14 +274,15 @@ impl<L: Lane> Search<L> {
         }
     }
 
-    /// The nearest point of all lengths; of those that decode alike, the one whose length is nearest to 1.
+    /// The nearest point of all lengths; of those that decode alike, the one whose length is
+    /// nearest to 1.
     #[inline(always)]
     fn nearest<G: Grid>(&self) -> [L::Int; 3] {
         let mut found = [L::Int::splat(0); 3];
         let mut distance = L::splat(4.0);
         let mut off_unit = L::splat(4.0);
-        // The angle is at least |e| / (|length| |slope|^2), with e the rounding error of the point, but for a tenth where it is
-        // large: one step in 15.
+        // The angle is at least |e| / (|length| |slope|^2), with e the rounding error of the point,
+        // but for a tenth where it is large: one step in 15.
         let stretch = length_squared(self.slope);
         let limit = |distance: L| {
             let e = (sqrt(distance) * L::splat(1.1) + L::splat(3e-7)) * stretch;
@@ -310,7 +315,8 @@ impl<L: Lane> Search<L> {
             let rounded = Cartesian::<G>::nearest(ideal);
             consider(rounded);
             if G::DISTINCT {
-                // Near the diagonals the rounded corner of the cell is not always the nearest: one component may go the other way.
+                // Near the diagonals the rounded corner of the cell is not always the nearest: one
+                // component may go the other way.
                 let values = Cartesian::<G>::values::<L>(rounded);
                 for axis in 0..3 {
                     let count = |mask| L::Int::select(mask, L::Int::splat(1), L::Int::splat(0));

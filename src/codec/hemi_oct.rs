@@ -1,13 +1,16 @@
-//! Hemi-oct: the +Z hemisphere projected onto half an octahedron, turned by 45 degrees so that it fills the square.
+//! Hemi-oct: the +Z hemisphere projected onto half an octahedron, turned by 45 degrees so that it
+//! fills the square.
 //!
 //! ```text
 //! encode   p = (x, y) / (|x| + |y| + z);  code = snorm(p.x + p.y), snorm(p.x - p.y)
 //! decode   p = ((u + w) / 2, (u - w) / 2, 1 - max(|u|, |w|));  v = p / |p|
 //! ```
 //!
-//! Canonical: every direction has one pattern, but for -M-1, which reads as -M. Survive exactly: +Z, +-X and +-Y.
+//! Canonical: every direction has one pattern, but for -M-1, which reads as -M. Survive exactly:
+//! +Z, +-X and +-Y.
 //!
-//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014.
 
 use crate::formula::{Formula, One, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt};

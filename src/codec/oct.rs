@@ -9,14 +9,15 @@
 //! ```
 //!
 //! In integers, with M = 2^(BITS/2 - 1) - 1 steps, the representable points are the (i, j, k) with
-//! i + j + k = M in each octant: a triangular lattice. The nearest of them to v is one of the three corners of the
-//! triangle that p lies in, since no triangle is obtuse once seen from the centre.
+//! i + j + k = M in each octant: a triangular lattice. The nearest of them to v is one of the three
+//! corners of the triangle that p lies in, since no triangle is obtuse once seen from the centre.
 //!
-//! Canonical: on the border of the square the points (u, +-M) and (+-M, w) stand for one direction where the folded
-//! coordinate is zero; the positive sign is the one emitted. Axes survive exactly.
+//! Canonical: on the border of the square the points (u, +-M) and (+-M, w) stand for one direction
+//! where the folded coordinate is zero; the positive sign is the one emitted. Axes survive exactly.
 //!
-//! Source: Meyer, Süßmuth, Sußner, Stamminger and Greiner, "On Floating-Point Normal Vectors", 2010;
-//! Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
+//! Source: Meyer, Süßmuth, Sußner, Stamminger and Greiner, "On Floating-Point Normal Vectors",
+//! 2010; Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014.
 
 use crate::formula::{Formula, One};
 use crate::lane::{Each, Lane, LaneInt};

@@ -5,10 +5,12 @@
 //! decode   v = (sin theta cos phi, sin theta sin phi, cos theta)
 //! ```
 //!
-//! Canonical: at the poles the azimuth is 0; the azimuth of -X is +M, never -M. Survive exactly: +-Z and +-X.
+//! Canonical: at the poles the azimuth is 0; the azimuth of -X is +M, never -M. Survive exactly:
+//! +-Z and +-X.
 //!
-//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014. The angle of a
-//! vector near a pole comes from atan2, where acos(z) would lose half its digits.
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014. The angle of a vector near a pole comes from atan2, where acos(z) would lose half its
+//! digits.
 
 use crate::formula::{Formula, One, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt};

@@ -5,15 +5,18 @@
 //! decode   z = sqrt(1 - x^2 - y^2)
 //! ```
 //!
-//! Beyond the rim, where x^2 + y^2 >= 1, decoding keeps the smaller component (cut to the first grid value at or above
-//! sqrt(1/2)), puts the larger one on the rim and z = 0; on a tie x is the larger. Canonical: of the codes that read as one point of
-//! the rim, the one nearest to it. In halves +Z, +-X and +-Y survive exactly; unorm has no zero, so no axis does.
+//! Beyond the rim, where x^2 + y^2 >= 1, decoding keeps the smaller component (cut to the first
+//! grid value at or above sqrt(1/2)), puts the larger one on the rim and z = 0; on a tie x is the
+//! larger. Canonical: of the codes that read as one point of the rim, the one nearest to it. In
+//! halves +Z, +-X and +-Y survive exactly; unorm has no zero, so no axis does.
 //!
-//! Precise: the decoded points of one column lie on a circle around its axis, on which the nearest to v is one of two neighbours.
-//! Columns are walked outwards from v until no further one can come nearer. Near the rim, where a step in x or y is a large angle,
-//! the nearest code may be dozens of steps away.
+//! Precise: the decoded points of one column lie on a circle around its axis, on which the nearest
+//! to v is one of two neighbours. Columns are walked outwards from v until no further one can come
+//! nearer. Near the rim, where a step in x or y is a large angle, the nearest code may be dozens of
+//! steps away.
 //!
-//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014.
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014.
 
 use core::marker::PhantomData;
 
@@ -150,7 +153,8 @@ impl<G: Grid> XyOnly<G> {
         let step = L::Int::splat(G::STEP);
         let beyond = G::height_squared::<L>(x, y).le(L::zero());
         let (x_larger, minor) = Self::minor::<L>([x, y]);
-        // The first at or beyond the rim: the nearest to it or a neighbour. One tie with the smaller goes to x.
+        // The first at or beyond the rim: the nearest to it or a neighbour. One tie with the
+        // smaller goes to x.
         let near = G::nearest(sqrt(G::rim_squared::<L>(minor)));
         let inside = |major| L::zero().lt(G::height_squared::<L>(minor, major));
         let (here, inner) = (inside(near), inside(near - step));
@@ -219,7 +223,8 @@ impl<G: Grid> Formula for XyOnly<G> {
             let up = G::value::<L>(near).lt(value);
             [near, near + L::Int::select(up, step, -step)]
         };
-        // On the rim there is a point for each smaller component: x above and below the diagonals, y between them.
+        // On the rim there is a point for each smaller component: x above and below the diagonals,
+        // y between them.
         let always = L::zero().le(L::zero());
         let to_rim = inv_sqrt((p * p + q * q).greater(L::splat(1e-30)));
         let diagonal = L::Int::splat(G::DIAGONAL);
@@ -232,7 +237,8 @@ impl<G: Grid> Formula for XyOnly<G> {
             let p_index = p_index.max(-diagonal).min(diagonal);
             consider(&mut closest, always, p_index, outside(q));
         }
-        // Column after column, to both sides. The middle one may be further than the one on the other side of v.
+        // Column after column, to both sides. The middle one may be further than the one on the
+        // other side of v.
         let middle = G::nearest(p);
         let mut offset = L::Int::splat(0);
         let mut open = always;
