@@ -212,7 +212,8 @@ macro_rules! codecs {
 // `encode_precise`, formula.
 codecs! {
     "[Octahedral](https://jcgt.org/published/0003/02/01/): the sphere unfolded from an octahedron into a square. Two snorm \
-     parameters, the first in the low bits. All six axes survive exactly." {
+     parameters u and v, the first in the low bits; -M-1 reads as -M. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`, of u and v plus \
+     2047; 4095 reads as 4094. All six axes survive exactly." {
         Oct8: u8 = "oct8", 8 bits, 17.26 / 11.47 degrees, oct::Oct<8>;
         Oct10: u16 = "oct10", 10 bits, 8.082 / 5.373 degrees, oct::Oct<10>;
         Oct12: u16 = "oct12", 12 bits, 3.935 / 2.623 degrees, oct::Oct<12>;
@@ -227,36 +228,45 @@ codecs! {
         Oct30: u32 = "oct30", 30 bits, 0.007460 / 0.004968 degrees, oct::Oct<30>;
         Oct32: u32 = "oct32", 32 bits, 0.003736 / 0.002486 degrees, oct::Oct<32>;
     }
-    "Cartesian: the three components, x in the low bits; decoding divides by the length. All six axes survive exactly." {
+    "Cartesian: the three components, x in the low bits, as many bits each as the name says; decoding divides by the length. Snorm \
+     -M-1 reads as -M, infinite and NaN halves as 65504, (0, 0, 0) as +Z. Of the patterns of one direction the one whose length \
+     is nearest to 1 is canonical; snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction. All six \
+     axes survive exactly." {
         Snorm5x3: u16 = "snorm5x3", 15 bits, 3.299 / 2.707 degrees, cartesian::Cartesian<cartesian::Snorm<5, 5, 5>>;
         Snorm8x3: [u8; 3] = "snorm8x3", 24 bits, 0.3920 / 0.3203 degrees, cartesian::Cartesian<cartesian::Snorm<8, 8, 8>>;
         Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, cartesian::Cartesian<cartesian::Snorm<10, 10, 10>>;
         Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, cartesian::Cartesian<cartesian::Snorm<11, 11, 10>>;
-        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.001515 / 0.001237 degrees, cartesian::Cartesian<cartesian::Snorm16>;
-        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.02380 / 0.007032 degrees, cartesian::Cartesian<cartesian::Halves>;
+        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, cartesian::Cartesian<cartesian::Snorm16>;
+        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00710 degrees, cartesian::Cartesian<cartesian::Halves>;
     }
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included." {
         Float32x3: [u32; 3] = "float32x3", 96 bits, 0.0 / 0.0 degrees, cartesian::Floats;
     }
-    "Spherical: polar angle and azimuth, as two snorm parameters, the first in the low bits. Of the axes, +-Z and +-X survive exactly." {
+    "Spherical: polar angle, 2 theta / pi - 1, and azimuth, phi / pi, as two snorm parameters u and v, the first in the low bits; -M-1 \
+     reads as -M. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`, of u and v plus 2047; 4095 reads as 4094. Canonical: at a pole v is 0, on -X it is M. Of \
+     the axes, +-Z and +-X survive exactly." {
         Spherical16: u16 = "spherical16", 16 bits, 0.7955 / 0.7955 degrees, spherical::Spherical<16>;
         Spherical20: u32 = "spherical20", 20 bits, 0.1978 / 0.1978 degrees, spherical::Spherical<20>;
         Spherical22: u32 = "spherical22", 22 bits, 0.09877 / 0.09876 degrees, spherical::Spherical<22>;
         Spherical24: [u8; 3] = "spherical24", 24 bits, 0.04937 / 0.04936 degrees, spherical::Spherical<24>;
         Spherical32: u32 = "spherical32", 32 bits, 0.003093 / 0.003086 degrees, spherical::Spherical<32>;
     }
-    "Hemi-oct: the +Z hemisphere, octahedral, turned so that it fills the square. Two snorm parameters, the first in the low \
-     bits. +Z, +-X and +-Y survive exactly." {
+    "Hemi-oct: the +Z hemisphere, octahedral, turned so that it fills the square. Two snorm parameters u and v, the first in the low \
+     bits; -M-1 reads as -M. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`, of u and v plus 2047; 4095 reads as 4094. +Z, +-X and +-Y survive exactly." {
         HemiOct16: u16 = "HemiOct16", 16 bits, 0.5548 / 0.5548 degrees, hemi_oct::HemiOct<16>;
         HemiOct24: [u8; 3] = "HemiOct24", 24 bits, 0.03443 / 0.03442 degrees, hemi_oct::HemiOct<24>;
         HemiOct32: u32 = "HemiOct32", 32 bits, 0.002163 / 0.002151 degrees, hemi_oct::HemiOct<32>;
     }
-    "XY-only: the +Z hemisphere, x and y as two unorm parameters, the first in the low bits. Of the axes, only +-X survive exactly." {
-        XyOnly16: u16 = "XYOnly16", 16 bits, 6.04 / 3.611 degrees, xy_only::XyOnly<xy_only::Unorm<16>>;
+    "XY-only: the +Z hemisphere, x and y as two biased unorm parameters u and v, (c + 1) / 2, the first in the low bits. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`. \
+     Beyond the rim, the smaller component is kept, but no more than the first grid value from sqrt(1/2); the larger one is put on the \
+     rim, and z is 0. No axis survives exactly." {
+        XyOnly16: u16 = "XYOnly16", 16 bits, 6.05 / 3.611 degrees, xy_only::XyOnly<xy_only::Unorm<16>>;
         XyOnly24: [u8; 3] = "XYOnly24", 24 bits, 1.51 / 0.8991 degrees, xy_only::XyOnly<xy_only::Unorm<24>>;
-        XyOnly32: u32 = "XYOnly32", 32 bits, 0.374 / 0.2248 degrees, xy_only::XyOnly<xy_only::Unorm<32>>;
+        XyOnly32: u32 = "XYOnly32", 32 bits, 0.379 / 0.2248 degrees, xy_only::XyOnly<xy_only::Unorm<32>>;
     }
-    "XY-only: the +Z hemisphere, x and y as two halves, x in the low bits. +Z, +-X and +-Y survive exactly." {
+    "XY-only: the +Z hemisphere, x and y as two halves, x in the low bits. Magnitudes above 1, infinity and NaN read as 1. Beyond the rim, the \
+     smaller component is kept, but no more than the first half from sqrt(1/2); the larger one is put on the rim, and z is 0. +Z, +-X \
+     and +-Y survive exactly." {
         XyOnly32F: u32 = "XYOnly32F", 32 bits, 1.51 / 0.8989 degrees, xy_only::XyOnly<xy_only::Halves>;
     }
 }

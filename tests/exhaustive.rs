@@ -120,9 +120,11 @@ fn codes_decode_to_unit_vectors_and_back() {
 #[test]
 fn fast_codes_are_canonical() {
     let vectors = mixed_vectors(4, 200_000);
-    let narrow: Vec<_> = formats().filter(|f| f.bits() <= 32).collect();
-    check_all(&narrow, |&format| {
-        let codes = encode(format, &vectors);
+    let all: Vec<_> = formats().collect();
+    check_all(&all, |&format| {
+        // The precise encoders of the finest grids are slow.
+        let vectors = if format.bits() > 32 { &vectors[..4_000] } else { &vectors[..] };
+        let codes = encode(format, vectors);
         let again = encode_precise(format, &decode(format, &codes));
         let different = |&i: &usize| codes[i] != again[i];
         match (0..codes.len()).find(different) {

@@ -3,6 +3,7 @@
 mod common;
 
 mod agree;
+mod axes;
 mod exhaustive;
 mod golden;
 mod max_error;

@@ -41,6 +41,8 @@ impl Visitor for Worst<'_> {
             match i % 3 {
                 0 => v[i / 3 % 3] /= small,
                 1 => v[i / 3 % 3] *= small,
+                // Near the diagonals of the rim of a hemisphere.
+                _ if i % 2 == 0 => v = [v[0], v[0] * (1.0 + 0.1 * v[1]), v[2] * small * small],
                 _ => {}
             }
             upper(v)

@@ -148,9 +148,6 @@ fn expectation((row, _, _, _, _, maximum): Row) -> Expectation {
         "CrytekBFN24" => Expectation { mean: within(0.03), max: NO_WORSE },
         // Their maximum comes from acos(z) near a pole, in f32.
         "spherical32" => Expectation { max: NO_WORSE, ..reproduced },
-        // Reached at the rim, where z = 0 and one step is a large angle: differs by 5 % from one
-        // set of vectors to another.
-        _ if row.starts_with("XYOnly") => Expectation { max: within(0.06), ..reproduced },
         // No quantiser is known that gives the published mean at 16 to 24 bits.
         _ if row.contains("concentric") => Expectation { mean: within(0.01), ..reproduced },
         _ if maximum == Float32 => Expectation { max: (0.0, 1.04), ..reproduced },

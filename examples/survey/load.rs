@@ -62,9 +62,10 @@ fn raw(_: &Path, bytes: &[u8]) -> Normals {
 /// would have none. They stand one on a line.
 fn obj(_: &Path, bytes: &[u8]) -> Normals {
     // Comments and names may be in Latin-1.
-    let text = String::from_utf8_lossy(bytes);
+    let text = String::from_utf8_lossy(bytes).replace("\r\n", "\n");
+    let lines = text.trim_start_matches('\u{feff}').split(['\n', '\r']);
     let mut normals = Vec::new();
-    for (i, line) in text.lines().enumerate() {
+    for (i, line) in lines.enumerate() {
         let mut words = line.split_whitespace();
         if words.next() == Some("vn") {
             let numbers: Vec<f32> = words.map_while(|word| word.parse().ok()).take(3).collect();

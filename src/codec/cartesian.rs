@@ -176,7 +176,12 @@ impl Grid for Halves {
         });
         let finest = L::splat(1.0 / 16_777_216.0) / units[0].lesser(units[1]).lesser(units[2]);
         let power = power.greater(finest);
-        let times = (times / power).round();
+        // Either a multiple of that power, or the greatest multiple of the one below.
+        let at_power = (times / power).round() * power;
+        let below = room * power * L::splat(0.5);
+        let use_below = (times - below).abs().lt((at_power - times).abs()) & finest.lt(power);
+        let power = L::select(use_below, power * L::splat(0.5), power);
+        let times = L::select(use_below, room, (times / power).round());
         // The largest component is 1 at most.
         let [x, y, z] = primitive.each(|c| (c * power).abs());
         let largest = x.greater(y).greater(z);
