@@ -1,7 +1,7 @@
 //! The loops: eight lanes, then one, with the same formula.
 
 use crate::error::LengthMismatch;
-use crate::formula::{Formula, Stored};
+use crate::formula::{Formula, Packed, Stored};
 use crate::lane::Lane;
 use crate::lane8::F8;
 use crate::{Codec, Visitor};
@@ -39,44 +39,37 @@ const EIGHT_LANES: bool = cfg!(any(
 /// How many vectors a detour over the stack takes at a time.
 const STAGE: usize = 64;
 
-/// What an encoder does with one block of vectors.
-trait Encoder<C> {
-    fn run<L: Lane>(
-        x: &L::Block<f32>,
-        y: &L::Block<f32>,
-        z: &L::Block<f32>,
-        codes: &mut L::Block<C>,
-    ) where
-        C: Copy;
+/// Which of a formula's encoders.
+trait Encoder {
+    fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L>;
 }
 
-struct Fast<F>(F);
-struct Precise<F>(F);
+struct Fast;
+struct Precise;
 
-impl<F: Formula, C: Stored<F::Words>> Encoder<C> for Fast<F> {
+impl Encoder for Fast {
     #[inline(always)]
-    fn run<L: Lane>(
-        x: &L::Block<f32>,
-        y: &L::Block<f32>,
-        z: &L::Block<f32>,
-        codes: &mut L::Block<C>,
-    ) {
-        let v = F::prepare([L::load(x), L::load(y), L::load(z)]);
-        C::store::<L>(F::encode(v), codes);
+    fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L> {
+        F::encode(v)
     }
 }
 
-impl<F: Formula, C: Stored<F::Words>> Encoder<C> for Precise<F> {
+impl Encoder for Precise {
     #[inline(always)]
-    fn run<L: Lane>(
-        x: &L::Block<f32>,
-        y: &L::Block<f32>,
-        z: &L::Block<f32>,
-        codes: &mut L::Block<C>,
-    ) {
-        let v = F::prepare([L::load(x), L::load(y), L::load(z)]);
-        C::store::<L>(F::encode_precise(v), codes);
+    fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L> {
+        F::encode_precise(v)
     }
+}
+
+#[inline(always)]
+fn encode_block<E: Encoder, F: Formula, C: Stored<F::Words>, L: Lane>(
+    x: &L::Block<f32>,
+    y: &L::Block<f32>,
+    z: &L::Block<f32>,
+    codes: &mut L::Block<C>,
+) {
+    let v = F::prepare([L::load(x), L::load(y), L::load(z)]);
+    C::store::<L>(E::encode::<F, L>(v), codes);
 }
 
 #[inline(always)]
@@ -92,18 +85,21 @@ fn decode_block<F: Formula, C: Stored<F::Words>, L: Lane>(
     v[2].store(z);
 }
 
-#[inline]
-pub(crate) fn encode_one<F: Formula, C: Stored<F::Words>>([x, y, z]: [f32; 3]) -> C {
+#[inline(always)]
+fn encode_single<E: Encoder, F: Formula, C: Stored<F::Words>>([x, y, z]: [f32; 3]) -> C {
     let mut code = [C::zeroed()];
-    Fast::<F>::run::<f32>(&[x], &[y], &[z], &mut code);
+    encode_block::<E, F, C, f32>(&[x], &[y], &[z], &mut code);
     code[0]
 }
 
 #[inline]
-pub(crate) fn encode_one_precise<F: Formula, C: Stored<F::Words>>([x, y, z]: [f32; 3]) -> C {
-    let mut code = [C::zeroed()];
-    Precise::<F>::run::<f32>(&[x], &[y], &[z], &mut code);
-    code[0]
+pub(crate) fn encode_one<F: Formula, C: Stored<F::Words>>(v: [f32; 3]) -> C {
+    encode_single::<Fast, F, C>(v)
+}
+
+#[inline]
+pub(crate) fn encode_one_precise<F: Formula, C: Stored<F::Words>>(v: [f32; 3]) -> C {
+    encode_single::<Precise, F, C>(v)
 }
 
 #[inline]
@@ -116,7 +112,7 @@ pub(crate) fn encode_soa<F: Formula, C: Stored<F::Words>>(
     v: Soa<'_>,
     codes: &mut [C],
 ) -> Result<(), LengthMismatch> {
-    encode_all::<Fast<F>, C>(v, codes)
+    encode_all::<Fast, F, C>(v, codes)
 }
 
 #[inline]
@@ -124,11 +120,11 @@ pub(crate) fn encode_soa_precise<F: Formula, C: Stored<F::Words>>(
     v: Soa<'_>,
     codes: &mut [C],
 ) -> Result<(), LengthMismatch> {
-    encode_all::<Precise<F>, C>(v, codes)
+    encode_all::<Precise, F, C>(v, codes)
 }
 
 #[inline]
-fn encode_all<E: Encoder<C>, C: Copy>(
+fn encode_all<E: Encoder, F: Formula, C: Stored<F::Words>>(
     Soa { x, y, z }: Soa<'_>,
     codes: &mut [C],
 ) -> Result<(), LengthMismatch> {
@@ -138,10 +134,10 @@ fn encode_all<E: Encoder<C>, C: Copy>(
     let (z8, z) = split::<f32>(z);
     let (codes8, codes) = split_mut(codes);
     for (((x, y), z), codes) in x8.iter().zip(y8).zip(z8).zip(codes8) {
-        E::run::<F8>(x, y, z, codes);
+        encode_block::<E, F, C, F8>(x, y, z, codes);
     }
     for (((x, y), z), codes) in ones(x).iter().zip(ones(y)).zip(ones(z)).zip(ones_mut(codes)) {
-        E::run::<f32>(x, y, z, codes);
+        encode_block::<E, F, C, f32>(x, y, z, codes);
     }
     Ok(())
 }

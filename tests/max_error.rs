@@ -38,11 +38,12 @@ impl Visitor for Worst<'_> {
         let mut start = |i: usize| {
             let mut v = rng.direction();
             let small = 10f32.powf(-5.0 * rng.unit() as f32);
-            match i % 3 {
-                0 => v[i / 3 % 3] /= small,
-                1 => v[i / 3 % 3] *= small,
+            let axis = i / 6 % 3;
+            match i % 6 {
+                0 | 1 => v[axis] /= small,
+                2 | 3 => v[axis] *= small,
                 // Near the diagonals of the rim of a hemisphere.
-                _ if i % 2 == 0 => v = [v[0], v[0] * (1.0 + 0.1 * v[1]), v[2] * small * small],
+                4 => v = [v[0], v[0] * (1.0 + 0.1 * v[1]), v[2] * small * small],
                 _ => {}
             }
             upper(v)

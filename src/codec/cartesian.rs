@@ -30,7 +30,7 @@ use crate::math::{chord_squared, inv_sqrt, length_squared, normalize, sqrt};
 /// Three components on a grid.
 pub(crate) struct Cartesian<G>(PhantomData<G>);
 
-/// The values that each component may have.
+/// The values that each component may have. The default is whole steps.
 pub(crate) trait Grid: 'static {
     type Words: Words;
     /// Steps from 0 to 1 on each axis.
@@ -42,13 +42,25 @@ pub(crate) trait Grid: 'static {
     const DISTINCT: bool;
 
     /// The `n`th value for the largest component, `n` from 1 to [`LENGTHS`](Self::LENGTHS).
-    fn length<L: Lane>(n: L, step: L) -> L;
+    #[inline(always)]
+    fn length<L: Lane>(n: L, step: L) -> L {
+        n * step
+    }
     /// Nearest grid point, ties to even.
-    fn nearest<L: Lane>(x: L, steps: L) -> L::Int;
-    fn value<L: Lane>(i: L::Int, step: L) -> L;
+    #[inline(always)]
+    fn nearest<L: Lane>(x: L, steps: L) -> L::Int {
+        (x * steps).round_int()
+    }
+    #[inline(always)]
+    fn value<L: Lane>(i: L::Int, step: L) -> L {
+        L::from_int(i) * step
+    }
     /// Of the points in the direction of `point`, which is not zero, the one whose length is
     /// nearest to 1.
-    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3];
+    #[inline(always)]
+    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
+        integer_representative::<L>(point, Self::STEPS)
+    }
     fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L>
     where
         Self: Sized;
@@ -66,22 +78,6 @@ impl<const X: u32, const Y: u32, const Z: u32> Grid for Snorm<X, Y, Z> {
     const LENGTHS: i32 = if X > Z { snorm_max(X) } else { snorm_max(Z) };
     const DISTINCT: bool = true;
 
-    #[inline(always)]
-    fn length<L: Lane>(n: L, step: L) -> L {
-        n * step
-    }
-    #[inline(always)]
-    fn nearest<L: Lane>(x: L, steps: L) -> L::Int {
-        (x * steps).round_int()
-    }
-    #[inline(always)]
-    fn value<L: Lane>(i: L::Int, step: L) -> L {
-        L::from_int(i) * step
-    }
-    #[inline(always)]
-    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
-        integer_representative::<L>(point, Self::STEPS)
-    }
     #[inline(always)]
     fn pack<L: Lane>([x, y, z]: [L::Int; 3]) -> L::Int {
         x.low(X) | y.low(Y).shl(X) | z.low(Z).shl(X + Y)
@@ -104,22 +100,6 @@ impl Grid for Snorm16 {
     const LENGTHS: i32 = snorm_max(16);
     const DISTINCT: bool = false;
 
-    #[inline(always)]
-    fn length<L: Lane>(n: L, step: L) -> L {
-        n * step
-    }
-    #[inline(always)]
-    fn nearest<L: Lane>(x: L, steps: L) -> L::Int {
-        (x * steps).round_int()
-    }
-    #[inline(always)]
-    fn value<L: Lane>(i: L::Int, step: L) -> L {
-        L::from_int(i) * step
-    }
-    #[inline(always)]
-    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
-        integer_representative::<L>(point, Self::STEPS)
-    }
     #[inline(always)]
     fn pack<L: Lane>(v: [L::Int; 3]) -> [L::Int; 3] {
         v
