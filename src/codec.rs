@@ -17,6 +17,15 @@ mod xy_only;
 /// short: any input is allowed and only its direction matters; zero and NaN encode as +Z, an
 /// infinite component as the limit direction, and a hemisphere codec takes z < 0 as 0; every bit
 /// pattern decodes to a unit vector; all entry points give the same bits.
+///
+/// # Bit layout
+/// The first parameter stands in the low bits, in two's complement if it is snorm. Snorm counts from
+/// -M to M, with M = 2^(b-1) - 1 for b bits; the pattern -M-1 reads as -M. A code narrower than its
+/// integer leaves the high bits zero, and decoding ignores them.
+///
+/// Two parameters u and v of 12 bits stand in three bytes as the survey's RGB8 has them:
+/// `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`. Snorm ones are then biased: u and v plus 2047, where
+/// 4095 reads as 4094.
 pub trait Codec: Copy + 'static {
     /// One packed vector. Its bits are laid out as the codec's page says.
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;
@@ -52,7 +61,8 @@ pub trait Codec: Copy + 'static {
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
     fn decode_soa(codes: &[Self::Code], v: SoaMut<'_>) -> Result<(), LengthMismatch>;
 
-    /// [`encode`](Codec::encode) for arrays of structures of `N` floats, of which the first three are x, y and z. `N < 3` does not compile:
+    /// [`encode`](Codec::encode) for arrays of structures of `N` floats, of which the first three are
+    /// x, y and z. `N < 3` does not compile:
     ///
     /// ```compile_fail
     /// use unitpack::{Codec, Oct16};
@@ -69,8 +79,8 @@ pub trait Codec: Copy + 'static {
         batch::encode_aos(v, codes, Self::encode_soa)
     }
 
-    /// [`encode_precise`](Codec::encode_precise) for arrays of structures of `N` floats, of which the first three are x, y and z.
-    /// `N < 3` does not compile.
+    /// [`encode_precise`](Codec::encode_precise) for arrays of structures of `N` floats, of which the
+    /// first three are x, y and z. `N < 3` does not compile.
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
@@ -82,8 +92,8 @@ pub trait Codec: Copy + 'static {
         batch::encode_aos(v, codes, Self::encode_soa_precise)
     }
 
-    /// [`decode`](Codec::decode) for arrays of structures of `N` floats. The first three become x, y and z; the others stay as they
-    /// are. `N < 3` does not compile.
+    /// [`decode`](Codec::decode) for arrays of structures of `N` floats. The first three become x, y
+    /// and z; the others stay as they are. `N < 3` does not compile.
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
@@ -212,8 +222,7 @@ macro_rules! codecs {
 // `encode_precise`, formula.
 codecs! {
     "[Octahedral](https://jcgt.org/published/0003/02/01/): the sphere unfolded from an octahedron into a square. Two snorm \
-     parameters u and v, the first in the low bits; -M-1 reads as -M. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`, of u and v plus \
-     2047; 4095 reads as 4094. All six axes survive exactly." {
+     [parameters](Codec#bit-layout). All six axes survive exactly." {
         Oct8: u8 = "oct8", 8 bits, 17.26 / 11.47 degrees, oct::Oct<8>;
         Oct10: u16 = "oct10", 10 bits, 8.082 / 5.373 degrees, oct::Oct<10>;
         Oct12: u16 = "oct12", 12 bits, 3.935 / 2.623 degrees, oct::Oct<12>;
@@ -242,22 +251,22 @@ codecs! {
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included." {
         Float32x3: [u32; 3] = "float32x3", 96 bits, 0.0 / 0.0 degrees, cartesian::Floats;
     }
-    "Spherical: polar angle, 2 theta / pi - 1, and azimuth, phi / pi, as two snorm parameters u and v, the first in the low bits; -M-1 \
-     reads as -M. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`, of u and v plus 2047; 4095 reads as 4094. Canonical: at a pole v is 0, on -X it is M. Of \
-     the axes, +-Z and +-X survive exactly." {
+    "Spherical: polar angle, 2 theta / pi - 1, and azimuth, phi / pi, as two snorm \
+     [parameters](Codec#bit-layout). Canonical: at a pole the azimuth is 0, on -X it is M. Of the axes, +-Z and +-X survive \
+     exactly." {
         Spherical16: u16 = "spherical16", 16 bits, 0.7955 / 0.7955 degrees, spherical::Spherical<16>;
         Spherical20: u32 = "spherical20", 20 bits, 0.1978 / 0.1978 degrees, spherical::Spherical<20>;
         Spherical22: u32 = "spherical22", 22 bits, 0.09877 / 0.09876 degrees, spherical::Spherical<22>;
         Spherical24: [u8; 3] = "spherical24", 24 bits, 0.04937 / 0.04936 degrees, spherical::Spherical<24>;
         Spherical32: u32 = "spherical32", 32 bits, 0.003093 / 0.003086 degrees, spherical::Spherical<32>;
     }
-    "Hemi-oct: the +Z hemisphere, octahedral, turned so that it fills the square. Two snorm parameters u and v, the first in the low \
-     bits; -M-1 reads as -M. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`, of u and v plus 2047; 4095 reads as 4094. +Z, +-X and +-Y survive exactly." {
+    "Hemi-oct: the +Z hemisphere, octahedral, turned so that it fills the square. Two snorm \
+     [parameters](Codec#bit-layout). +Z, +-X and +-Y survive exactly." {
         HemiOct16: u16 = "HemiOct16", 16 bits, 0.5548 / 0.5548 degrees, hemi_oct::HemiOct<16>;
         HemiOct24: [u8; 3] = "HemiOct24", 24 bits, 0.03443 / 0.03442 degrees, hemi_oct::HemiOct<24>;
         HemiOct32: u32 = "HemiOct32", 32 bits, 0.002163 / 0.002151 degrees, hemi_oct::HemiOct<32>;
     }
-    "XY-only: the +Z hemisphere, x and y as two biased unorm parameters u and v, (c + 1) / 2, the first in the low bits. At 24 bits the bytes are the survey's RGB8, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`. \
+    "XY-only: the +Z hemisphere, x and y as two unorm [parameters](Codec#bit-layout), (c + 1) / 2. \
      Beyond the rim, the smaller component is kept, but no more than the first grid value from sqrt(1/2); the larger one is put on the \
      rim, and z is 0. No axis survives exactly." {
         XyOnly16: u16 = "XYOnly16", 16 bits, 6.05 / 3.611 degrees, xy_only::XyOnly<xy_only::Unorm<16>>;

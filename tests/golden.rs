@@ -6,6 +6,7 @@
 
 use std::fmt::Write;
 
+use crate::common::Rng;
 use unitpack::{Format, Soa, SoaMut};
 
 /// Of the inputs, so that a change to them is not taken for one to the formats: vectors, codes.
@@ -62,27 +63,15 @@ fn digest_floats<'a>(floats: impl IntoIterator<Item = &'a f32>) -> u64 {
     digest(floats.into_iter().flat_map(|c| bits(c).to_le_bytes()))
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// In [-1, 1), a multiple of 2^-23.
-    fn signed(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / 8_388_608.0 - 1.0
-    }
+/// In [-1, 1), a multiple of 2^-23: exact, so the same on every machine.
+fn signed(random: &mut Rng) -> f32 {
+    (random.bits() >> 40) as f32 / 8_388_608.0 - 1.0
 }
 
 /// One component of all vectors after another. Made of exact operations only.
 fn vectors() -> [Vec<f32>; 3] {
     let mut vectors = Vec::new();
-    let mut random = Random(1);
+    let mut random = Rng::new(1);
 
     // Axes, faces, diagonals, zeros of both signs, and what is no direction.
     let odd = [0.0, -0.0, 1.0, -1.0, 0.5, 1e-40, -1e-40, 3e38, f32::INFINITY, f32::NEG_INFINITY];
@@ -99,7 +88,7 @@ fn vectors() -> [Vec<f32>; 3] {
     for bits in 4..=16 {
         let steps = ((1 << bits) - 1) as f32;
         for _ in 0..24 {
-            let mut tie = || ((random.signed() * steps).floor() + 0.5) / steps;
+            let mut tie = || ((signed(&mut random) * steps).floor() + 0.5) / steps;
             let (a, b) = (tie(), tie());
             let c = 1.0 - a.abs() - b.abs();
             let round = [a, b, (1.0 - a * a - b * b).max(0.0).sqrt()];
@@ -115,12 +104,12 @@ fn vectors() -> [Vec<f32>; 3] {
 
     // Small, large and usual directions, and any bits.
     for scale in [1e-40, 1e-15, 1e15, 1e38] {
-        vectors.extend((0..64).map(|_| [(); 3].map(|()| random.signed() * scale)));
+        vectors.extend((0..64).map(|_| [(); 3].map(|()| signed(&mut random) * scale)));
     }
-    vectors.extend((0..3000).map(|_| [(); 3].map(|()| random.signed())));
+    vectors.extend((0..3000).map(|_| [(); 3].map(|()| signed(&mut random))));
     vectors.extend((0..500).map(|_| {
         [(); 3]
-            .map(|()| f32::from_bits(random.next() as u32))
+            .map(|()| f32::from_bits(random.bits() as u32))
             .map(|c| if c.is_nan() { nan } else { c })
     }));
     [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect())
@@ -129,9 +118,9 @@ fn vectors() -> [Vec<f32>; 3] {
 /// Bytes of codes: runs of one byte, then random ones. A multiple of every size of code up to 12
 /// bytes.
 fn codes() -> Vec<u8> {
-    let mut random = Random(2);
+    let mut random = Rng::new(2);
     let runs = (0..=255).flat_map(|byte| [byte; 24]);
-    runs.chain((0..48_000).map(|_| (random.next() >> 56) as u8)).collect()
+    runs.chain((0..48_000).map(|_| (random.bits() >> 56) as u8)).collect()
 }
 
 fn encode(v: [&[f32]; 3], format: Format, precise: bool) -> u64 {
@@ -202,5 +191,5 @@ fn digests_have_not_changed() {
 #[test]
 fn digest_and_generator_are_what_they_say() {
     assert_eq!(digest(*b"foobar"), 0x8594_4171_F739_67E8);
-    assert_eq!(Random(1_234_567).next(), 6_457_827_717_110_365_317);
+    assert_eq!(Rng::new(1_234_567).bits(), 6_457_827_717_110_365_317);
 }

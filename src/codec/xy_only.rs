@@ -107,7 +107,7 @@ pub(crate) struct Halves;
 impl Grid for Halves {
     const GREATEST: i32 = half::ONE;
     const STEP: i32 = 1;
-    const DIAGONAL: i32 = 0x39A8 + 1;
+    const DIAGONAL: i32 = 0x39A9;
 
     #[inline(always)]
     fn nearest<L: Lane>(x: L) -> L::Int {
