@@ -1,5 +1,7 @@
 //! The loops: eight lanes, then one, with the same formula.
 
+use bytemuck::Pod;
+
 use crate::error::LengthMismatch;
 use crate::formula::{Formula, Packed, Stored};
 use crate::lane::Lane;
@@ -160,6 +162,32 @@ pub(crate) fn decode_soa<F: Formula, C: Stored<F::Words>>(
         decode_block::<F, C, f32>(codes, x, y, z);
     }
     Ok(())
+}
+
+/// What a loop from one slice to another does to each block.
+pub(crate) trait Kernel<A: Copy, B: Copy> {
+    fn run<L: Lane>(from: &L::Block<A>, to: &mut L::Block<B>);
+}
+
+/// Runs `K` over two slices, which are equally long.
+#[inline]
+pub(crate) fn run<K: Kernel<A, B>, A: Copy, B: Copy>(from: &[A], to: &mut [B]) {
+    let (from8, from) = split(from);
+    let (to8, to) = split_mut(to);
+    for (from, to) in from8.iter().zip(to8) {
+        K::run::<F8>(from, to);
+    }
+    for (from, to) in ones(from).iter().zip(ones_mut(to)) {
+        K::run::<f32>(from, to);
+    }
+}
+
+/// Runs `K` on one element.
+#[inline]
+pub(crate) fn run_one<K: Kernel<A, B>, A: Copy, B: Pod>(from: A) -> B {
+    let mut to = [B::zeroed()];
+    K::run::<f32>(&[from], &mut to);
+    to[0]
 }
 
 /// Blocks of eight, and the rest.

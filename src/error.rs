@@ -19,6 +19,15 @@ pub enum LengthMismatch {
     /// Transcoding: the number of codes to read, and to write.
     #[allow(missing_docs)]
     Transcode { src: usize, dst: usize },
+    /// Scalars, pairs and fields: the number of them, and of codes that each of them makes.
+    #[allow(missing_docs)]
+    Values { values: usize, codes: usize },
+    /// Codes with a tag each: the number of codes or of their fields, of tags, and of packed words.
+    #[allow(missing_docs)]
+    Tagged { codes: usize, tags: usize, words: usize },
+    /// Codes without gaps: the number of codes, of bytes, and of bits that one code takes.
+    #[allow(missing_docs)]
+    Dense { codes: usize, bytes: usize, bits: u32 },
 }
 
 impl LengthMismatch {
@@ -55,6 +64,20 @@ impl LengthMismatch {
     pub(crate) fn check_transcode(src: usize, dst: usize) -> Result<(), Self> {
         if src == dst { Ok(()) } else { Err(LengthMismatch::Transcode { src, dst }) }
     }
+
+    #[inline]
+    pub(crate) fn check_values(values: usize, codes: usize) -> Result<(), Self> {
+        if values == codes { Ok(()) } else { Err(LengthMismatch::Values { values, codes }) }
+    }
+
+    #[inline]
+    pub(crate) fn check_tagged(codes: usize, tags: usize, words: usize) -> Result<(), Self> {
+        if codes == words && tags == words {
+            Ok(())
+        } else {
+            Err(LengthMismatch::Tagged { codes, tags, words })
+        }
+    }
 }
 
 impl fmt::Display for LengthMismatch {
@@ -72,6 +95,15 @@ impl fmt::Display for LengthMismatch {
             ),
             LengthMismatch::Transcode { src, dst } => {
                 write!(f, "lengths differ: source {src}, destination {dst}")
+            }
+            LengthMismatch::Values { values, codes } => {
+                write!(f, "lengths differ: values {values}, codes {codes}")
+            }
+            LengthMismatch::Tagged { codes, tags, words } => {
+                write!(f, "lengths differ: codes {codes}, tags {tags}, words {words}")
+            }
+            LengthMismatch::Dense { codes, bytes, bits } => {
+                write!(f, "lengths do not fit: codes {codes}, bytes {bytes} at {bits} bits a code")
             }
         }
     }

@@ -77,10 +77,28 @@ pub(crate) trait Lane:
         (self + Self::splat(ROUNDER)) - Self::splat(ROUNDER)
     }
 
-    /// Nearest integer, ties to even, as an integer. For |x| < 2^22.
+    /// Nearest integer, ties to even, as an integer. For |x| <= 2^22.
     #[inline(always)]
     fn round_int(self) -> Self::Int {
         (self + Self::splat(ROUNDER)).to_bits() - Self::Int::splat(ROUNDER.to_bits() as i32)
+    }
+
+    /// [`round_int`](Lane::round_int) for |x| <= 2^24.
+    #[inline(always)]
+    fn round_int_wide(self) -> Self::Int {
+        // From 2^23 to 2^24 the bits count whole numbers; smaller ones are moved there.
+        const FIRST: f32 = 8_388_608.0;
+        let magnitude = self.abs();
+        let moved = magnitude.lt(Self::splat(FIRST));
+        let bits = Self::select(moved, magnitude + Self::splat(FIRST), magnitude).to_bits();
+        let start = FIRST.to_bits() as i32;
+        let start = Self::Int::select(
+            moved,
+            Self::Int::splat(start),
+            Self::Int::splat(start - FIRST as i32),
+        );
+        let n = bits - start;
+        Self::Int::select(self.lt(Self::zero()), -n, n)
     }
 
     /// Greatest integer not above. For |x| < 2^22.

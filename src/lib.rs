@@ -6,6 +6,7 @@
 extern crate std;
 
 mod batch;
+mod code_int;
 mod codec;
 mod error;
 mod format;
@@ -15,8 +16,11 @@ mod lane;
 mod lane8;
 mod layout;
 mod math;
+pub mod packing;
+pub mod scalar;
 
 pub use batch::{Soa, SoaMut, transcode};
+pub use code_int::CodeInt;
 pub use codec::*;
 pub use error::LengthMismatch;
 pub use format::{UnknownFormat, Visitor};

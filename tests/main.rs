@@ -7,5 +7,7 @@ mod axes;
 mod exhaustive;
 mod golden;
 mod max_error;
+mod packing;
 mod reference;
+mod scalar;
 mod survey;

@@ -13,7 +13,9 @@ use core::hint::black_box;
 use core::panic::PanicInfo;
 
 use bytemuck::Zeroable;
-use unitpack::{Codec, Float32x3, Format, Oct16, Soa, SoaMut, Visitor, transcode};
+use unitpack::packing::*;
+use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
+use unitpack::{CodeInt, Codec, Float32x3, Format, Oct16, Soa, SoaMut, Visitor, transcode};
 
 const LEN: usize = 67;
 
@@ -57,6 +59,54 @@ fn arrays_of_structures<C: Codec, const N: usize>(codes: &mut [C::Code]) {
     black_box(C::decode_aos(black_box(codes), black_box(vectors)).is_ok());
 }
 
+fn scalar<S: Scalar, C: CodeInt>() {
+    black_box(S::encode(black_box(0.5)));
+    black_box(S::decode(black_box(1)));
+    let (mut values, mut codes) = ([0.5; LEN], [C::zeroed(); LEN]);
+    black_box(S::encode_slice(opaque(&mut values), opaque(&mut codes)).is_ok());
+    black_box(S::decode_slice(opaque(&mut codes), opaque(&mut values)).is_ok());
+}
+
+fn scalars<const NARROW: u32, const WIDE: u32>() {
+    scalar::<Unorm<NARROW>, u8>();
+    scalar::<Snorm<NARROW>, u8>();
+    scalar::<BiasedUnorm<NARROW>, u16>();
+    scalar::<Fixed<NARROW>, u16>();
+    scalar::<Unorm<WIDE>, u32>();
+    scalar::<Snorm<WIDE>, u32>();
+    scalar::<BiasedUnorm<WIDE>, u32>();
+    scalar::<Fixed<WIDE>, u32>();
+}
+
+fn packing() {
+    let (mut pairs, mut texels) = ([[0.5; 2]; LEN], [[0; 3]; LEN]);
+    let (mut codes, mut tags, mut words) = ([0; LEN], [0; LEN], [0; LEN]);
+    let mut fields = [[0; 3]; LEN];
+    let (pairs, texels) = (opaque(&mut pairs), opaque(&mut texels));
+    let (codes, tags, words) = (opaque(&mut codes), opaque(&mut tags), opaque(&mut words));
+    let fields = opaque(&mut fields);
+    black_box(unpack_snorm12x2(black_box(pack_snorm12x2(black_box([0.5; 2])))));
+    black_box(pack_snorm12x2_slice(pairs, texels).is_ok());
+    black_box(unpack_snorm12x2_slice(texels, pairs).is_ok());
+    black_box(unpack_tag(black_box(pack_tag(black_box(7), black_box(1)))));
+    black_box(pack_tag_slice(codes, tags, words).is_ok());
+    black_box(unpack_tag_slice(words, codes, tags).is_ok());
+    black_box(unpack_10_10_10_2(black_box(pack_10_10_10_2(black_box([7; 3]), black_box(1)))));
+    black_box(pack_10_10_10_2_slice(fields, tags, words).is_ok());
+    black_box(unpack_10_10_10_2_slice(words, fields, tags).is_ok());
+    black_box(unpack_11_11_10(black_box(pack_11_11_10(black_box([7; 3])))));
+    black_box(pack_11_11_10_slice(fields, words).is_ok());
+    black_box(unpack_11_11_10_slice(words, fields).is_ok());
+    black_box(dense_len(black_box(12), black_box(LEN)));
+}
+
+fn dense<const BITS: u32, C: CodeInt>() {
+    let (mut codes, mut bytes) = ([C::zeroed(); LEN], [0; 4 * LEN]);
+    let (codes, bytes) = (opaque(&mut codes), opaque(&mut bytes));
+    black_box(pack_dense::<BITS, C>(codes, bytes).is_ok());
+    black_box(unpack_dense::<BITS, C>(bytes, codes).is_ok());
+}
+
 struct Buffers([[f32; LEN]; 3]);
 
 impl Buffers {
@@ -86,6 +136,13 @@ extern "C" fn main() -> i32 {
         black_box((format.name(), format.bits(), format.code_size(), format.is_hemisphere()));
         black_box((format.max_error_degrees(), format.max_error_precise_degrees()));
     }
+    scalars::<2, 22>();
+    scalars::<8, 24>();
+    packing();
+    dense::<1, u8>();
+    dense::<12, u16>();
+    dense::<22, u32>();
+    dense::<32, u32>();
     black_box(black_box("oct16").parse::<Format>().is_ok());
     #[cfg(feature = "control")]
     black_box(black_box(Format::ALL)[black_box(0)]);
