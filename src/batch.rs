@@ -1,5 +1,7 @@
 //! The loops: eight lanes, then one, with the same formula.
 
+use core::marker::PhantomData;
+
 use bytemuck::Pod;
 
 use crate::error::LengthMismatch;
@@ -39,7 +41,7 @@ const EIGHT_LANES: bool = cfg!(any(
 ));
 
 /// How many vectors a detour over the stack takes at a time.
-const STAGE: usize = 64;
+pub(crate) const STAGE: usize = 64;
 
 /// Which of a formula's encoders.
 trait Encoder {
@@ -63,6 +65,21 @@ impl Encoder for Precise {
     }
 }
 
+/// What the loop over codes does with a block of them.
+pub(crate) trait Decoder<C: Copy> {
+    fn decode<L: Lane>(&self, codes: &L::Block<C>) -> [L; 3];
+}
+
+/// A formula's decoder.
+struct Direct<F>(PhantomData<F>);
+
+impl<F: Formula, C: Stored<F::Words>> Decoder<C> for Direct<F> {
+    #[inline(always)]
+    fn decode<L: Lane>(&self, codes: &L::Block<C>) -> [L; 3] {
+        F::decode::<L>(C::load::<L>(codes))
+    }
+}
+
 #[inline(always)]
 fn encode_block<E: Encoder, F: Formula, C: Stored<F::Words>, L: Lane>(
     x: &L::Block<f32>,
@@ -75,13 +92,14 @@ fn encode_block<E: Encoder, F: Formula, C: Stored<F::Words>, L: Lane>(
 }
 
 #[inline(always)]
-fn decode_block<F: Formula, C: Stored<F::Words>, L: Lane>(
+fn decode_block<D: Decoder<C>, C: Copy, L: Lane>(
+    decoder: &D,
     codes: &L::Block<C>,
     x: &mut L::Block<f32>,
     y: &mut L::Block<f32>,
     z: &mut L::Block<f32>,
 ) {
-    let v = F::decode::<L>(C::load::<L>(codes));
+    let v = decoder.decode::<L>(codes);
     v[0].store(x);
     v[1].store(y);
     v[2].store(z);
@@ -125,7 +143,7 @@ pub(crate) fn encode_soa_precise<F: Formula, C: Stored<F::Words>>(
     encode_all::<Precise, F, C>(v, codes)
 }
 
-#[inline]
+#[inline(never)]
 fn encode_all<E: Encoder, F: Formula, C: Stored<F::Words>>(
     Soa { x, y, z }: Soa<'_>,
     codes: &mut [C],
@@ -147,6 +165,15 @@ fn encode_all<E: Encoder, F: Formula, C: Stored<F::Words>>(
 #[inline]
 pub(crate) fn decode_soa<F: Formula, C: Stored<F::Words>>(
     codes: &[C],
+    v: SoaMut<'_>,
+) -> Result<(), LengthMismatch> {
+    decode_all(&Direct::<F>(PhantomData), codes, v)
+}
+
+#[inline(never)]
+pub(crate) fn decode_all<D: Decoder<C>, C: Copy>(
+    decoder: &D,
+    codes: &[C],
     SoaMut { x, y, z }: SoaMut<'_>,
 ) -> Result<(), LengthMismatch> {
     LengthMismatch::check_soa(x.len(), y.len(), z.len(), codes.len())?;
@@ -155,11 +182,11 @@ pub(crate) fn decode_soa<F: Formula, C: Stored<F::Words>>(
     let (z8, z) = split_mut(z);
     let (codes8, codes) = split(codes);
     for (((codes, x), y), z) in codes8.iter().zip(x8).zip(y8).zip(z8) {
-        decode_block::<F, C, F8>(codes, x, y, z);
+        decode_block::<D, C, F8>(decoder, codes, x, y, z);
     }
     let rest = ones(codes).iter().zip(ones_mut(x)).zip(ones_mut(y)).zip(ones_mut(z));
     for (((codes, x), y), z) in rest {
-        decode_block::<F, C, f32>(codes, x, y, z);
+        decode_block::<D, C, f32>(decoder, codes, x, y, z);
     }
     Ok(())
 }
@@ -192,22 +219,22 @@ pub(crate) fn run_one<K: Kernel<A, B>, A: Copy, B: Pod>(from: A) -> B {
 
 /// Blocks of eight, and the rest.
 #[inline(always)]
-fn split<T>(slice: &[T]) -> (&[[T; 8]], &[T]) {
+pub(crate) fn split<T>(slice: &[T]) -> (&[[T; 8]], &[T]) {
     if EIGHT_LANES { slice.as_chunks() } else { (&[], slice) }
 }
 
 #[inline(always)]
-fn split_mut<T>(slice: &mut [T]) -> (&mut [[T; 8]], &mut [T]) {
+pub(crate) fn split_mut<T>(slice: &mut [T]) -> (&mut [[T; 8]], &mut [T]) {
     if EIGHT_LANES { slice.as_chunks_mut() } else { (&mut [], slice) }
 }
 
 #[inline(always)]
-fn ones<T>(slice: &[T]) -> &[[T; 1]] {
+pub(crate) fn ones<T>(slice: &[T]) -> &[[T; 1]] {
     slice.as_chunks().0
 }
 
 #[inline(always)]
-fn ones_mut<T>(slice: &mut [T]) -> &mut [[T; 1]] {
+pub(crate) fn ones_mut<T>(slice: &mut [T]) -> &mut [[T; 1]] {
     slice.as_chunks_mut().0
 }
 
@@ -254,12 +281,18 @@ impl Stage {
     }
 }
 
+/// An encoder's loop. A pointer, so that the detours are compiled once for each type of code, not
+/// for each codec.
+type Encode<C> = fn(Soa<'_>, &mut [C]) -> Result<(), LengthMismatch>;
+/// A decoder's loop.
+type Decode<C> = fn(&[C], SoaMut<'_>) -> Result<(), LengthMismatch>;
+
 /// Runs `encode` over an array of structures.
 #[inline]
 pub(crate) fn encode_aos<C, const N: usize>(
     vectors: &[[f32; N]],
     codes: &mut [C],
-    encode: impl Fn(Soa<'_>, &mut [C]) -> Result<(), LengthMismatch>,
+    encode: Encode<C>,
 ) -> Result<(), LengthMismatch> {
     const { assert!(N >= 3, "a vector has at least three components") };
     LengthMismatch::check_aos(vectors.len(), codes.len())?;
@@ -276,7 +309,7 @@ pub(crate) fn encode_aos<C, const N: usize>(
 pub(crate) fn decode_aos<C, const N: usize>(
     codes: &[C],
     vectors: &mut [[f32; N]],
-    decode: impl Fn(&[C], SoaMut<'_>) -> Result<(), LengthMismatch>,
+    decode: Decode<C>,
 ) -> Result<(), LengthMismatch> {
     const { assert!(N >= 3, "a vector has at least three components") };
     LengthMismatch::check_aos(vectors.len(), codes.len())?;
@@ -299,30 +332,40 @@ pub fn transcode<A: Codec, B: Codec>(
     src: &[A::Code],
     dst: &mut [B::Code],
 ) -> Result<(), LengthMismatch> {
+    transcode_with(src, dst, A::decode_soa, B::encode_soa)
+}
+
+#[inline]
+fn transcode_with<A, B>(
+    src: &[A],
+    dst: &mut [B],
+    decode: Decode<A>,
+    encode: Encode<B>,
+) -> Result<(), LengthMismatch> {
     LengthMismatch::check_transcode(src.len(), dst.len())?;
     let mut stage = Stage::new();
     for (src, dst) in src.chunks(STAGE).zip(dst.chunks_mut(STAGE)) {
-        A::decode_soa(src, stage.write(src.len()))?;
-        B::encode_soa(stage.read(src.len()), dst)?;
+        decode(src, stage.write(src.len()))?;
+        encode(stage.read(src.len()), dst)?;
     }
     Ok(())
 }
 
 /// Runs `encode` over codes that stand as little-endian bytes, at any alignment.
 #[inline]
-fn encode_bytes<C: Codec>(
+fn encode_bytes<C: Pod>(
     v: Soa<'_>,
     bytes: &mut [u8],
-    encode: impl Fn(Soa<'_>, &mut [C::Code]) -> Result<(), LengthMismatch>,
+    encode: Encode<C>,
 ) -> Result<(), LengthMismatch> {
-    let size = size_of::<C::Code>();
+    let size = size_of::<C>();
     LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
     if cfg!(target_endian = "little")
         && let Ok(codes) = bytemuck::try_cast_slice_mut(bytes)
     {
         return encode(v, codes);
     }
-    let mut codes = [<C::Code as bytemuck::Zeroable>::zeroed(); STAGE];
+    let mut codes = [C::zeroed(); STAGE];
     let vectors = v.x.chunks(STAGE).zip(v.y.chunks(STAGE)).zip(v.z.chunks(STAGE));
     for (((x, y), z), bytes) in vectors.zip(bytes.chunks_mut(STAGE * size)) {
         let codes = &mut codes[..x.len().min(STAGE)];
@@ -332,15 +375,39 @@ fn encode_bytes<C: Codec>(
     Ok(())
 }
 
+/// Runs `decode` over codes that stand as little-endian bytes, at any alignment.
+#[inline]
+fn decode_bytes<C: Pod>(
+    bytes: &[u8],
+    v: SoaMut<'_>,
+    decode: Decode<C>,
+) -> Result<(), LengthMismatch> {
+    let size = size_of::<C>();
+    LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
+    if cfg!(target_endian = "little")
+        && let Ok(codes) = bytemuck::try_cast_slice(bytes)
+    {
+        return decode(codes, v);
+    }
+    let mut codes = [C::zeroed(); STAGE];
+    let vectors = v.x.chunks_mut(STAGE).zip(v.y.chunks_mut(STAGE)).zip(v.z.chunks_mut(STAGE));
+    for (((x, y), z), bytes) in vectors.zip(bytes.chunks(STAGE * size)) {
+        let codes = &mut codes[..x.len().min(STAGE)];
+        copy_little_endian::<C>(bytemuck::cast_slice_mut(codes), bytes);
+        decode(codes, SoaMut { x, y, z })?;
+    }
+    Ok(())
+}
+
 /// Copies whole codes between native and little-endian byte order, either way.
 #[inline]
-fn copy_little_endian<C: Codec>(to: &mut [u8], from: &[u8]) {
+fn copy_little_endian<C>(to: &mut [u8], from: &[u8]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
     }
     if cfg!(target_endian = "big") {
         // A code is one integer or an array of them, as large as its alignment.
-        for word in to.chunks_exact_mut(align_of::<C::Code>()) {
+        for word in to.chunks_exact_mut(align_of::<C>()) {
             word.reverse();
         }
     }
@@ -356,11 +423,8 @@ impl<const PRECISE: bool> Visitor for EncodeBytes<'_, PRECISE> {
     type Output = Result<(), LengthMismatch>;
     #[inline]
     fn visit<C: Codec>(self) -> Self::Output {
-        if PRECISE {
-            encode_bytes::<C>(self.v, self.bytes, C::encode_soa_precise)
-        } else {
-            encode_bytes::<C>(self.v, self.bytes, C::encode_soa)
-        }
+        let encode = if PRECISE { C::encode_soa_precise } else { C::encode_soa };
+        encode_bytes(self.v, self.bytes, encode)
     }
 }
 
@@ -374,21 +438,6 @@ impl Visitor for DecodeBytes<'_> {
     type Output = Result<(), LengthMismatch>;
     #[inline]
     fn visit<C: Codec>(self) -> Self::Output {
-        let DecodeBytes { bytes, v } = self;
-        let size = size_of::<C::Code>();
-        LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
-        if cfg!(target_endian = "little")
-            && let Ok(codes) = bytemuck::try_cast_slice(bytes)
-        {
-            return C::decode_soa(codes, v);
-        }
-        let mut codes = [<C::Code as bytemuck::Zeroable>::zeroed(); STAGE];
-        let vectors = v.x.chunks_mut(STAGE).zip(v.y.chunks_mut(STAGE)).zip(v.z.chunks_mut(STAGE));
-        for (((x, y), z), bytes) in vectors.zip(bytes.chunks(STAGE * size)) {
-            let codes = &mut codes[..x.len().min(STAGE)];
-            copy_little_endian::<C>(bytemuck::cast_slice_mut(codes), bytes);
-            C::decode_soa(codes, SoaMut { x, y, z })?;
-        }
-        Ok(())
+        decode_bytes(self.bytes, self.v, C::decode_soa)
     }
 }

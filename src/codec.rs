@@ -3,11 +3,17 @@
 use crate::batch::{self, Soa, SoaMut};
 use crate::error::LengthMismatch;
 use crate::format::Visitor;
-use crate::formula::Formula;
+use crate::formula::{Behind, Formula};
 
 mod cartesian;
+mod cube;
+mod disk;
 mod hemi_oct;
+mod icosphere;
+mod latlong;
 mod oct;
+mod octant;
+mod phi_z;
 mod spherical;
 mod xy_only;
 
@@ -124,6 +130,10 @@ macro_rules! codecs {
             #[doc = $family]
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
             pub struct $name;
+
+            impl Behind for $name {
+                type Formula = $formula;
+            }
 
             impl Codec for $name {
                 type Code = $code;
@@ -246,7 +256,7 @@ codecs! {
         Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, cartesian::Cartesian<cartesian::Snorm<10, 10, 10>>;
         Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, cartesian::Cartesian<cartesian::Snorm<11, 11, 10>>;
         Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, cartesian::Cartesian<cartesian::Snorm16>;
-        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00710 degrees, cartesian::Cartesian<cartesian::Halves>;
+        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00937 degrees, cartesian::Cartesian<cartesian::Halves>;
     }
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included." {
         Float32x3: [u32; 3] = "float32x3", 96 bits, 0.0 / 0.0 degrees, cartesian::Floats;
@@ -277,5 +287,167 @@ codecs! {
      smaller component is kept, but no more than the first half from sqrt(1/2); the larger one is put on the rim, and z is 0. +Z, +-X \
      and +-Y survive exactly." {
         XyOnly32F: u32 = "XYOnly32F", 32 bits, 1.51 / 0.8989 degrees, xy_only::XyOnly<xy_only::Halves>;
+    }
+    "Disk projection, stereographic, as it is: codes outside the disk decode past the equator, where only `encode_precise` \
+     uses them. Two snorm [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive \
+     exactly." {
+        Stereo16: u16 = "stereo16", 16 bits, 1.013 / 1.013 degrees, disk::Disk<disk::Stereo, disk::Plain, 16>;
+        Stereo20: u32 = "stereo20", 20 bits, 0.2518 / 0.2518 degrees, disk::Disk<disk::Stereo, disk::Plain, 20>;
+        Stereo22: u32 = "stereo22", 22 bits, 0.1258 / 0.1258 degrees, disk::Disk<disk::Stereo, disk::Plain, 22>;
+        Stereo24: [u8; 3] = "stereo24", 24 bits, 0.06285 / 0.06284 degrees, disk::Disk<disk::Stereo, disk::Plain, 24>;
+        Stereo32: u32 = "stereo32", 32 bits, 0.003932 / 0.003926 degrees, disk::Disk<disk::Stereo, disk::Plain, 32>;
+    }
+    "Disk projection, stereographic, stretched to the square by mapping circles to squares (Shirley and Chiu). Two snorm \
+     [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive exactly." {
+        StereoConcentric16: u16 = "stereo+concentric16", 16 bits, 1.355 / 0.9926 degrees, disk::Disk<disk::Stereo, disk::Concentric, 16>;
+        StereoConcentric20: u32 = "stereo+concentric20", 20 bits, 0.3435 / 0.2468 degrees, disk::Disk<disk::Stereo, disk::Concentric, 20>;
+        StereoConcentric22: u32 = "stereo+concentric22", 22 bits, 0.1724 / 0.1233 degrees, disk::Disk<disk::Stereo, disk::Concentric, 22>;
+        StereoConcentric24: [u8; 3] = "stereo+concentric24", 24 bits, 0.08642 / 0.06160 degrees, disk::Disk<disk::Stereo, disk::Concentric, 24>;
+        StereoConcentric32: u32 = "stereo+concentric32", 32 bits, 0.005428 / 0.003848 degrees, disk::Disk<disk::Stereo, disk::Concentric, 32>;
+    }
+    "Disk projection, stereographic, stretched to the square by elliptical arcs (Nowell). Two snorm \
+     [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive exactly." {
+        StereoEllipse16: u16 = "stereo+ellipse16", 16 bits, 1.013 / 1.013 degrees, disk::Disk<disk::Stereo, disk::Ellipse, 16>;
+        StereoEllipse20: u32 = "stereo+ellipse20", 20 bits, 0.2518 / 0.2518 degrees, disk::Disk<disk::Stereo, disk::Ellipse, 20>;
+        StereoEllipse22: u32 = "stereo+ellipse22", 22 bits, 0.1258 / 0.1258 degrees, disk::Disk<disk::Stereo, disk::Ellipse, 22>;
+        StereoEllipse24: [u8; 3] = "stereo+ellipse24", 24 bits, 0.06285 / 0.06284 degrees, disk::Disk<disk::Stereo, disk::Ellipse, 24>;
+        StereoEllipse32: u32 = "stereo+ellipse32", 32 bits, 0.003932 / 0.003926 degrees, disk::Disk<disk::Stereo, disk::Ellipse, 32>;
+    }
+    "Disk projection, equal-area, as it is: codes outside the disk decode past the equator, where only `encode_precise` uses \
+     them. Two snorm [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive \
+     exactly, and with `encode_precise` +-Z." {
+        EqArea16: u16 = "eqarea16", 16 bits, 1.016 / 0.9262 degrees, disk::Disk<disk::EqArea, disk::Plain, 16>;
+        EqArea20: u32 = "eqarea20", 20 bits, 0.2520 / 0.2316 degrees, disk::Disk<disk::EqArea, disk::Plain, 20>;
+        EqArea22: u32 = "eqarea22", 22 bits, 0.1258 / 0.1159 degrees, disk::Disk<disk::EqArea, disk::Plain, 22>;
+        EqArea24: [u8; 3] = "eqarea24", 24 bits, 0.06286 / 0.05791 degrees, disk::Disk<disk::EqArea, disk::Plain, 24>;
+        EqArea32: u32 = "eqarea32", 32 bits, 0.003947 / 0.003620 degrees, disk::Disk<disk::EqArea, disk::Plain, 32>;
+    }
+    "Disk projection, equal-area, stretched to the square by mapping circles to squares (Shirley and Chiu). Two snorm \
+     [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive exactly." {
+        EqAreaConcentric16: u16 = "eqarea+concentric16", 16 bits, 1.048 / 0.9167 degrees, disk::Disk<disk::EqArea, disk::Concentric, 16>;
+        EqAreaConcentric20: u32 = "eqarea+concentric20", 20 bits, 0.2611 / 0.2291 degrees, disk::Disk<disk::EqArea, disk::Concentric, 20>;
+        EqAreaConcentric22: u32 = "eqarea+concentric22", 22 bits, 0.1305 / 0.1146 degrees, disk::Disk<disk::EqArea, disk::Concentric, 22>;
+        EqAreaConcentric24: [u8; 3] = "eqarea+concentric24", 24 bits, 0.06522 / 0.05726 degrees, disk::Disk<disk::EqArea, disk::Concentric, 24>;
+        EqAreaConcentric32: u32 = "eqarea+concentric32", 32 bits, 0.004099 / 0.003579 degrees, disk::Disk<disk::EqArea, disk::Concentric, 32>;
+    }
+    "Disk projection, equal-area, stretched to the square by elliptical arcs (Nowell). Two snorm \
+     [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive exactly." {
+        EqAreaEllipse16: u16 = "eqarea+ellipse16", 16 bits, 0.9213 / 0.9131 degrees, disk::Disk<disk::EqArea, disk::Ellipse, 16>;
+        EqAreaEllipse20: u32 = "eqarea+ellipse20", 20 bits, 0.2296 / 0.2283 degrees, disk::Disk<disk::EqArea, disk::Ellipse, 20>;
+        EqAreaEllipse22: u32 = "eqarea+ellipse22", 22 bits, 0.1148 / 0.1141 degrees, disk::Disk<disk::EqArea, disk::Ellipse, 22>;
+        EqAreaEllipse24: [u8; 3] = "eqarea+ellipse24", 24 bits, 0.05735 / 0.05705 degrees, disk::Disk<disk::EqArea, disk::Ellipse, 24>;
+        EqAreaEllipse32: u32 = "eqarea+ellipse32", 32 bits, 0.003604 / 0.003566 degrees, disk::Disk<disk::EqArea, disk::Ellipse, 32>;
+    }
+    "Disk projection, equidistant, as it is: codes outside the disk decode past the equator, where only `encode_precise` uses \
+     them. Two snorm [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive \
+     exactly." {
+        EqDist16: u16 = "eqdist16", 16 bits, 0.7955 / 0.7955 degrees, disk::Disk<disk::EqDist, disk::Plain, 16>;
+        EqDist20: u32 = "eqdist20", 20 bits, 0.1978 / 0.1978 degrees, disk::Disk<disk::EqDist, disk::Plain, 20>;
+        EqDist22: u32 = "eqdist22", 22 bits, 0.09877 / 0.09876 degrees, disk::Disk<disk::EqDist, disk::Plain, 22>;
+        EqDist24: [u8; 3] = "eqdist24", 24 bits, 0.04937 / 0.04936 degrees, disk::Disk<disk::EqDist, disk::Plain, 24>;
+        EqDist32: u32 = "eqdist32", 32 bits, 0.003098 / 0.003086 degrees, disk::Disk<disk::EqDist, disk::Plain, 32>;
+    }
+    "Disk projection, equidistant, stretched to the square by mapping circles to squares (Shirley and Chiu). Two snorm \
+     [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive exactly." {
+        EqDistConcentric16: u16 = "eqdist+concentric16", 16 bits, 1.078 / 0.7798 degrees, disk::Disk<disk::EqDist, disk::Concentric, 16>;
+        EqDistConcentric20: u32 = "eqdist+concentric20", 20 bits, 0.2710 / 0.1938 degrees, disk::Disk<disk::EqDist, disk::Concentric, 20>;
+        EqDistConcentric22: u32 = "eqdist+concentric22", 22 bits, 0.1358 / 0.09680 degrees, disk::Disk<disk::EqDist, disk::Concentric, 22>;
+        EqDistConcentric24: [u8; 3] = "eqdist+concentric24", 24 bits, 0.06799 / 0.04838 degrees, disk::Disk<disk::EqDist, disk::Concentric, 24>;
+        EqDistConcentric32: u32 = "eqdist+concentric32", 32 bits, 0.004264 / 0.003022 degrees, disk::Disk<disk::EqDist, disk::Concentric, 32>;
+    }
+    "Disk projection, equidistant, stretched to the square by elliptical arcs (Nowell). Two snorm \
+     [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2. Of the axes, +-X survive exactly." {
+        EqDistEllipse16: u16 = "eqdist+ellipse16", 16 bits, 0.7955 / 0.7955 degrees, disk::Disk<disk::EqDist, disk::Ellipse, 16>;
+        EqDistEllipse20: u32 = "eqdist+ellipse20", 20 bits, 0.1978 / 0.1978 degrees, disk::Disk<disk::EqDist, disk::Ellipse, 20>;
+        EqDistEllipse22: u32 = "eqdist+ellipse22", 22 bits, 0.09877 / 0.09876 degrees, disk::Disk<disk::EqDist, disk::Ellipse, 22>;
+        EqDistEllipse24: [u8; 3] = "eqdist+ellipse24", 24 bits, 0.04937 / 0.04936 degrees, disk::Disk<disk::EqDist, disk::Ellipse, 24>;
+        EqDistEllipse32: u32 = "eqdist+ellipse32", 32 bits, 0.003105 / 0.003086 degrees, disk::Disk<disk::EqDist, disk::Ellipse, 32>;
+    }
+    "Lat-long: as many points on each parallel as there are parallels. The code is an index, row by row from +Z; the last \
+     indices read as -Z. Of the axes, +-Z and +X survive exactly." {
+        LatLong16: u16 = "latlong16", 16 bits, 0.7930 / 0.7930 degrees, latlong::LatLong<latlong::Even<16>>;
+        LatLong24: [u8; 3] = "latlong24", 24 bits, 0.04937 / 0.04935 degrees, latlong::LatLong<latlong::Even<24>>;
+        LatLong32: u32 = "latlong32", 32 bits, 0.003110 / 0.003088 degrees, latlong::LatLong<latlong::Even<32>>;
+    }
+    "Lat-long with fewer points towards the poles, so that cells are about as wide as high. The code is an index, row by row \
+     from +Z; the last indices read as -Z. A table of 4 bytes a parallel: 1 KB at 16 bits, 15 KB at 24, 232 KB at 32. Of the axes, \
+     +-Z and +X survive exactly, and at 16 and 24 bits -X." {
+        LatLong16D: u16 = "latlong16D", 16 bits, 0.5647 / 0.5645 degrees, latlong::LatLong<latlong::Spaced<16>>;
+        LatLong24D: [u8; 3] = "latlong24D", 24 bits, 0.03524 / 0.03522 degrees, latlong::LatLong<latlong::Spaced<24>>;
+        LatLong32D: u32 = "latlong32D", 32 bits, 0.002228 / 0.002205 degrees, latlong::LatLong<latlong::Spaced<32>>;
+    }
+    "Cube map: 3 bits of face, 2 axis + sign, and two snorm parameters, next / |axis| and next but one / |axis|. The highest \
+     bit is unused. All six axes survive exactly." {
+        Cube16: u16 = "cube16", 16 bits, 1.312 / 1.312 degrees, cube::Cube<cube::Flat, 16>;
+        Cube24: [u8; 3] = "cube24", 24 bits, 0.07961 / 0.07961 degrees, cube::Cube<cube::Flat, 24>;
+        Cube32: u32 = "cube32", 32 bits, 0.004966 / 0.004966 degrees, cube::Cube<cube::Flat, 32>;
+    }
+    "Cube map with even steps of the angle: as cube, each parameter the 4 / pi atan of cube's. The highest bit is unused. All \
+     six axes survive exactly." {
+        WarpedCube16: u16 = "warpedcube16", 16 bits, 1.181 / 1.031 degrees, cube::Cube<cube::Warped, 16>;
+        WarpedCube24: [u8; 3] = "warpedcube24", 24 bits, 0.07216 / 0.06252 degrees, cube::Cube<cube::Warped, 24>;
+        WarpedCube32: u32 = "warpedcube32", 32 bits, 0.004506 / 0.003901 degrees, cube::Cube<cube::Warped, 32>;
+    }
+    "Schinko's angular cube: each face cut into s x s cells of even angle, decoded to their centres, s = floor(sqrt(2^bits / 6)). \
+     The code is the index (i s + j) 6 + face; the last indices read as the last cell. All six axes survive exactly if s is odd, \
+     else none." {
+        AngularCube4: u8 = "angularcube4", 4 bits, 54.96 / 54.96 degrees, cube::AngularCube<4>;
+        AngularCube5: u8 = "angularcube5", 5 bits, 30.49 / 30.49 degrees, cube::AngularCube<5>;
+        AngularCube6: u8 = "angularcube6", 6 bits, 21.33 / 19.74 degrees, cube::AngularCube<6>;
+        AngularCube7: u8 = "angularcube7", 7 bits, 16.47 / 15.78 degrees, cube::AngularCube<7>;
+        AngularCube8: u8 = "angularcube8", 8 bits, 11.36 / 10.59 degrees, cube::AngularCube<8>;
+        AngularCube9: u16 = "angularcube9", 9 bits, 7.760 / 7.030 degrees, cube::AngularCube<9>;
+        AngularCube10: u16 = "angularcube10", 10 bits, 5.460 / 4.892 degrees, cube::AngularCube<10>;
+        AngularCube11: u16 = "angularcube11", 11 bits, 3.985 / 3.548 degrees, cube::AngularCube<11>;
+        AngularCube12: u16 = "angularcube12", 12 bits, 2.783 / 2.457 degrees, cube::AngularCube<12>;
+        AngularCube13: u16 = "angularcube13", 13 bits, 2.021 / 1.775 degrees, cube::AngularCube<13>;
+        AngularCube14: u16 = "angularcube14", 14 bits, 1.405 / 1.229 degrees, cube::AngularCube<14>;
+        AngularCube15: u16 = "angularcube15", 15 bits, 1.004 / 0.8752 degrees, cube::AngularCube<15>;
+        AngularCube16: u16 = "angularcube16", 16 bits, 0.7059 / 0.6144 degrees, cube::AngularCube<16>;
+        AngularCube17: u32 = "angularcube17", 17 bits, 0.5002 / 0.4347 degrees, cube::AngularCube<17>;
+        AngularCube18: u32 = "angularcube18", 18 bits, 0.3522 / 0.3058 degrees, cube::AngularCube<18>;
+        AngularCube19: u32 = "angularcube19", 19 bits, 0.2497 / 0.2166 degrees, cube::AngularCube<19>;
+        AngularCube20: u32 = "angularcube20", 20 bits, 0.1763 / 0.1529 degrees, cube::AngularCube<20>;
+        AngularCube21: u32 = "angularcube21", 21 bits, 0.1248 / 0.1082 degrees, cube::AngularCube<21>;
+        AngularCube22: u32 = "angularcube22", 22 bits, 0.08820 / 0.07643 degrees, cube::AngularCube<22>;
+        AngularCube23: u32 = "angularcube23", 23 bits, 0.06240 / 0.05406 degrees, cube::AngularCube<23>;
+        AngularCube24: [u8; 3] = "angularcube24", 24 bits, 0.04412 / 0.03822 degrees, cube::AngularCube<24>;
+        AngularCube25: u32 = "angularcube25", 25 bits, 0.03121 / 0.02703 degrees, cube::AngularCube<25>;
+        AngularCube26: u32 = "angularcube26", 26 bits, 0.02206 / 0.01911 degrees, cube::AngularCube<26>;
+        AngularCube27: u32 = "angularcube27", 27 bits, 0.01561 / 0.01352 degrees, cube::AngularCube<27>;
+        AngularCube28: u32 = "angularcube28", 28 bits, 0.01104 / 0.009554 degrees, cube::AngularCube<28>;
+        AngularCube29: u32 = "angularcube29", 29 bits, 0.007806 / 0.006755 degrees, cube::AngularCube<29>;
+        AngularCube30: u32 = "angularcube30", 30 bits, 0.005520 / 0.004777 degrees, cube::AngularCube<30>;
+        AngularCube31: u32 = "angularcube31", 31 bits, 0.003912 / 0.003378 degrees, cube::AngularCube<31>;
+        AngularCube32: u32 = "angularcube32", 32 bits, 0.002766 / 0.002389 degrees, cube::AngularCube<32>;
+    }
+    "Baptista's octant code: three signs and a point of the octant's triangle. `encode` truncates as the original does; \
+     `encode_precise` gives the nearest code of the same format. All six axes survive exactly." {
+        Octant16: u16 = "octant16", 16 bits, 1.937 / 0.6456 degrees, octant::Octant;
+    }
+    "Cartesian, scaled and biased: three unorm components, (c + 1) / 2, x in the low bits, as a UNORM render target holds \
+     them. Decoding divides by the length. `encode_precise` gives the nearest direction of any length. xyz-unorm16x3 is finer \
+     than `f32`, so there what decodes alike is one direction. No axis survives exactly." {
+        XyzUnorm8x3: [u8; 3] = "xyz-unorm8x3", 24 bits, 0.3898 / 0.3191 degrees, cartesian::Cartesian<cartesian::Unorm<8>>;
+        XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, cartesian::Cartesian<cartesian::Unorm<16>>;
+    }
+    "Crytek's best-fit normals: the bits of [`XyzUnorm8x3`], of the length that a table of 256 KiB gives for the direction. \
+     `encode_precise` needs no table, nor does decoding; a program that does not call `encode` does not contain it. No axis \
+     survives exactly." {
+        CrytekBfn24: [u8; 3] = "CrytekBFN24", 24 bits, 0.3191 / 0.3191 degrees, cartesian::BestFit;
+    }
+    "Azimuth and z, each as unorm [parameter](Codec#bit-layout), (phi / pi + 1) / 2 and (z + 1) / 2. Of the axes, +-Z survive \
+     exactly." {
+        PhiZUnorm8x2: u16 = "phi-z-unorm8x2", 16 bits, 5.097 / 3.605 degrees, phi_z::PhiZ<16>;
+        PhiZUnorm16x2: u32 = "phi-z-unorm16x2", 32 bits, 0.3193 / 0.2248 degrees, phi_z::PhiZ<32>;
+    }
+    "[Octahedral](https://jcgt.org/published/0003/02/01/), each parameter as unorm, (c + 1) / 2, as a UNORM render target \
+     holds it. Two [parameters](Codec#bit-layout). Of the axes, -Z alone survives exactly." {
+        OctUnorm8x2: u16 = "oct-unorm8x2", 16 bits, 0.9571 / 0.6381 degrees, oct::OctUnorm<16>;
+        OctUnorm16x2: u32 = "oct-unorm16x2", 32 bits, 0.003746 / 0.002486 degrees, oct::OctUnorm<32>;
+    }
+    "Icosphere: the nearest of the 162 vertices of an icosahedron with edges cut into four, as Quake 2 had them. Codes from \
+     162 read as 161. A table of 2 KB. All six axes survive exactly." {
+        Icosphere162: u8 = "icosphere162", 8 bits, 10.86 / 10.86 degrees, icosphere::Icosphere;
     }
 }

@@ -25,9 +25,16 @@ pub enum LengthMismatch {
     /// Codes with a tag each: the number of codes or of their fields, of tags, and of packed words.
     #[allow(missing_docs)]
     Tagged { codes: usize, tags: usize, words: usize },
-    /// Codes without gaps: the number of codes, of bytes, and of bits that one code takes.
+    /// Codes or signs without gaps: the number of them, of bytes, and of bits that one takes.
     #[allow(missing_docs)]
     Dense { codes: usize, bytes: usize, bits: u32 },
+    /// A decode table: the number of vectors, and of entries that a table of the format has, `None`
+    /// if the format has more than 16 bits and so no table.
+    #[allow(missing_docs)]
+    Table { vectors: usize, entries: Option<usize> },
+    /// Vectors of two dimensions: the number of x and y components, and of codes.
+    #[allow(missing_docs)]
+    Angles { x: usize, y: usize, codes: usize },
 }
 
 impl LengthMismatch {
@@ -78,6 +85,29 @@ impl LengthMismatch {
             Err(LengthMismatch::Tagged { codes, tags, words })
         }
     }
+
+    #[inline]
+    pub(crate) fn check_table(vectors: usize, entries: Option<usize>) -> Result<(), Self> {
+        if entries == Some(vectors) {
+            Ok(())
+        } else {
+            Err(LengthMismatch::Table { vectors, entries })
+        }
+    }
+
+    #[inline]
+    pub(crate) fn check_signs(values: usize, bytes: usize) -> Result<(), Self> {
+        if values.div_ceil(8) == bytes {
+            Ok(())
+        } else {
+            Err(LengthMismatch::Dense { codes: values, bytes, bits: 1 })
+        }
+    }
+
+    #[inline]
+    pub(crate) fn check_angles(x: usize, y: usize, codes: usize) -> Result<(), Self> {
+        if x == codes && y == codes { Ok(()) } else { Err(LengthMismatch::Angles { x, y, codes }) }
+    }
 }
 
 impl fmt::Display for LengthMismatch {
@@ -104,6 +134,16 @@ impl fmt::Display for LengthMismatch {
             }
             LengthMismatch::Dense { codes, bytes, bits } => {
                 write!(f, "lengths do not fit: codes {codes}, bytes {bytes} at {bits} bits a code")
+            }
+            LengthMismatch::Table { vectors, entries: Some(entries) } => {
+                write!(f, "lengths differ: vectors {vectors}, entries of the table {entries}")
+            }
+            LengthMismatch::Table { vectors, entries: None } => write!(
+                f,
+                "vectors {vectors}, but formats of more than 16 bits have no decode table"
+            ),
+            LengthMismatch::Angles { x, y, codes } => {
+                write!(f, "lengths differ: x {x}, y {y}, codes {codes}")
             }
         }
     }

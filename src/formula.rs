@@ -37,6 +37,22 @@ pub(crate) trait Formula: 'static {
     fn decode<L: Lane>(code: Packed<Self, L>) -> [L; 3];
 }
 
+/// A formula whose decoder is the same, bit for bit, in all octants: mirroring a code mirrors its
+/// vector. A hemisphere's formula is so in its four.
+pub(crate) trait Symmetric: Formula<Words = One> {
+    /// How many points there are in an octant.
+    const ENTRIES: usize;
+
+    /// The number of a code's point in its octant, below [`ENTRIES`](Self::ENTRIES), and which
+    /// components of that point to negate. Each number has a code of which none is.
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]);
+}
+
+/// The formula behind a codec.
+pub(crate) trait Behind: crate::Codec {
+    type Formula: Formula;
+}
+
 /// A code in lanes.
 pub(crate) type Packed<F, L> = <<F as Formula>::Words as Words>::Packed<L>;
 
@@ -110,7 +126,7 @@ stored!(u32: Three);
 /// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become +Z, +Z, the limit
 /// direction, and `v` times a power of two.
 #[inline(always)]
-fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
+pub(crate) fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
     const LEAST: f32 = 9.094_947e-13; // 2^-40
     const GREATEST: f32 = 1.099_511_6e12; // 2^40
     let magnitude = magnitude(v);
@@ -160,11 +176,13 @@ impl<L: Lane> Closest<L> {
     /// `target` needs no unit length.
     #[inline(always)]
     pub(crate) fn to(target: [L; 3]) -> Self {
-        Closest {
-            target: math::normalize(target),
-            code: L::Int::splat(0),
-            distance: L::splat(f32::INFINITY),
-        }
+        Self::to_unit(math::normalize(target))
+    }
+
+    /// `target` has unit length. What decodes to its very bits is at distance 0.
+    #[inline(always)]
+    pub(crate) fn to_unit(target: [L; 3]) -> Self {
+        Closest { target, code: L::Int::splat(0), distance: L::splat(f32::INFINITY) }
     }
 
     /// Considers a code that decodes to the unit vector `decoded`. The first of equals stays.

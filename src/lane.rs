@@ -42,6 +42,16 @@ pub(crate) trait Lane:
     fn lt(self, other: Self) -> Self::Mask;
     fn le(self, other: Self) -> Self::Mask;
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Looks each lane up. Beyond the end, 0.
+    fn gather<T: Copy + Into<u32>>(table: &[T], index: Self::Int) -> Self::Int;
+    /// Looks each lane's vector up. Beyond the end, zeros.
+    fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3];
+
+    /// An integer read as unsigned.
+    #[inline(always)]
+    fn from_unsigned(i: Self::Int) -> Self {
+        Self::from_int(i.shr(16)) * Self::splat(65_536.0) + Self::from_int(i.low(16))
+    }
 
     #[inline(always)]
     fn zero() -> Self {
@@ -147,6 +157,13 @@ pub(crate) trait LaneInt:
         self.max(-self)
     }
 
+    /// Less than, both read as unsigned.
+    #[inline(always)]
+    fn below(self, other: Self) -> Self::Mask {
+        let flip = Self::splat(i32::MIN);
+        (self ^ flip).lt(other ^ flip)
+    }
+
     /// The low `bits` bits, read as two's complement.
     #[inline(always)]
     fn sign_extend(self, bits: u32) -> Self {
@@ -242,6 +259,14 @@ impl Lane for f32 {
     fn select(mask: bool, yes: Self, no: Self) -> Self {
         if mask { yes } else { no }
     }
+    #[inline(always)]
+    fn gather<T: Copy + Into<u32>>(table: &[T], index: Self::Int) -> Self::Int {
+        Wrapping(look_up(table, index.0))
+    }
+    #[inline(always)]
+    fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3] {
+        look_up3(table, index.0)
+    }
 }
 
 impl LaneInt for Wrapping<i32> {
@@ -282,4 +307,16 @@ impl LaneMask for bool {
     fn any(self) -> bool {
         self
     }
+}
+
+/// One lane of a gather.
+#[inline(always)]
+pub(crate) fn look_up<T: Copy + Into<u32>>(table: &[T], index: i32) -> i32 {
+    table.get(index as u32 as usize).map_or(0, |&t| t.into() as i32)
+}
+
+/// One lane of a gather of vectors.
+#[inline(always)]
+pub(crate) fn look_up3(table: &[[f32; 3]], index: i32) -> [f32; 3] {
+    table.get(index as u32 as usize).copied().unwrap_or_default()
 }

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use crate::lane::{Lane, LaneInt, LaneMask};
+use crate::lane::{Each, Lane, LaneInt, LaneMask, look_up, look_up3};
 use bytemuck::cast;
 use wide::{f32x8, i32x8, u32x8};
 
@@ -116,6 +116,15 @@ impl Lane for F8 {
     #[inline(always)]
     fn select(mask: M8, yes: Self, no: Self) -> Self {
         F8(cast::<i32x8, f32x8>(mask.0).select(yes.0, no.0))
+    }
+    #[inline(always)]
+    fn gather<T: Copy + Into<u32>>(table: &[T], index: I8) -> I8 {
+        I8(i32x8::new(index.0.to_array().map(|i| look_up(table, i))))
+    }
+    #[inline(always)]
+    fn gather3(table: &[[f32; 3]], index: I8) -> [Self; 3] {
+        let vectors = index.0.to_array().map(|i| look_up3(table, i));
+        [0, 1, 2].each(|c: usize| F8(f32x8::new(vectors.map(|v| v[c]))))
     }
 }
 

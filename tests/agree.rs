@@ -8,6 +8,7 @@
 use std::marker::PhantomData;
 use std::ops::Range;
 
+use bytemuck::Pod;
 use proptest::array::{uniform3, uniform8};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -223,19 +224,19 @@ impl<C: Codec> Untyped for Typed<C> {
             Fast => C::encode(v),
             Precise => C::encode_precise(v),
         };
-        little_endian::<C>(&[code])
+        little_endian(&[code])
     }
     fn decode(&self, code: &[u8]) -> Vector {
-        C::decode(native::<C>(code)[0])
+        C::decode(native(code)[0])
     }
     fn encode_soa(&self, effort: Effort, v: Soa<'_>, into: Place<'_>) -> Outcome {
-        write::<C>(into, |codes| match effort {
+        write(into, &mut |codes| match effort {
             Fast => C::encode_soa(v, codes),
             Precise => C::encode_soa_precise(v, codes),
         })
     }
     fn decode_soa(&self, buffer: &[u8], codes: Range<usize>, v: SoaMut<'_>) -> Outcome {
-        C::decode_soa(&native::<C>(buffer)[codes], v)
+        C::decode_soa(&native(buffer)[codes], v)
     }
     fn encode_aos(&self, effort: Effort, n: usize, v: &[f32], into: Place<'_>) -> Outcome {
         fn aos<C: Codec, const N: usize>(
@@ -249,7 +250,7 @@ impl<C: Codec> Untyped for Typed<C> {
                 Precise => C::encode_aos_precise(v, codes),
             }
         }
-        write::<C>(into, |codes| match n {
+        write(into, &mut |codes| match n {
             3 => aos::<C, 3>(effort, v, codes),
             4 => aos::<C, 4>(effort, v, codes),
             8 => aos::<C, 8>(effort, v, codes),
@@ -257,7 +258,7 @@ impl<C: Codec> Untyped for Typed<C> {
         })
     }
     fn decode_aos(&self, n: usize, codes: &[u8], v: &mut [f32]) -> Outcome {
-        let codes = &native::<C>(codes);
+        let codes = &native(codes);
         match n {
             3 => C::decode_aos::<3>(codes, v.as_chunks_mut().0),
             4 => C::decode_aos::<4>(codes, v.as_chunks_mut().0),
@@ -267,7 +268,7 @@ impl<C: Codec> Untyped for Typed<C> {
     }
     fn transcode(&self, way: Way, codes: &[u8], into: Place<'_>) -> Outcome {
         fn run<A: Codec, B: Codec>(codes: &[u8], into: Place<'_>) -> Outcome {
-            write::<B>(into, |into| transcode::<A, B>(&native::<A>(codes), into))
+            write(into, &mut |into| transcode::<A, B>(&native(codes), into))
         }
         match way {
             Way::ToOct24 => run::<C, Oct24>(codes, into),
@@ -279,28 +280,28 @@ impl<C: Codec> Untyped for Typed<C> {
 }
 
 /// A code is an integer, or an array of integers, as large as its alignment.
-fn swap_on_big_endian<C: Codec>(bytes: &mut [u8]) {
+fn swap_on_big_endian<C>(bytes: &mut [u8]) {
     if cfg!(target_endian = "big") {
-        bytes.chunks_exact_mut(align_of::<C::Code>()).for_each(<[u8]>::reverse);
+        bytes.chunks_exact_mut(align_of::<C>()).for_each(<[u8]>::reverse);
     }
 }
 
-fn little_endian<C: Codec>(codes: &[C::Code]) -> Vec<u8> {
+fn little_endian<C: Pod>(codes: &[C]) -> Vec<u8> {
     let mut bytes = bytemuck::cast_slice(codes).to_vec();
     swap_on_big_endian::<C>(&mut bytes);
     bytes
 }
 
-fn native<C: Codec>(bytes: &[u8]) -> Vec<C::Code> {
+fn native<C: Pod>(bytes: &[u8]) -> Vec<C> {
     let mut bytes = bytes.to_vec();
     swap_on_big_endian::<C>(&mut bytes);
-    bytes.chunks_exact(size_of::<C::Code>()).map(bytemuck::pod_read_unaligned).collect()
+    bytes.chunks_exact(size_of::<C>()).map(bytemuck::pod_read_unaligned).collect()
 }
 
-fn write<C: Codec>(into: Place<'_>, write: impl FnOnce(&mut [C::Code]) -> Outcome) -> Outcome {
+fn write<C: Pod>(into: Place<'_>, write: &mut dyn FnMut(&mut [C]) -> Outcome) -> Outcome {
     let mut codes = native::<C>(into.buffer);
     let outcome = write(&mut codes[into.codes]);
-    into.buffer.copy_from_slice(&little_endian::<C>(&codes));
+    into.buffer.copy_from_slice(&little_endian(&codes));
     outcome
 }
 
@@ -568,7 +569,9 @@ fn part(len: usize, offset: usize) -> Range<usize> {
 
 /// The precise search of these takes up to 200 us a vector, others 10 us at most.
 fn is_slow(format: Format, effort: Effort) -> bool {
-    matches!(effort, Precise) && matches!(format, Format::Snorm16x3 | Format::Float16x3)
+    use Format::*;
+    let wide = matches!(format, Snorm16x3 | XyzUnorm16x3 | Float16x3 | Snorm11_11_10 | Snorm10x3);
+    matches!(effort, Precise) && wide
 }
 
 /// Slow ones at one offset for each length.

@@ -4,10 +4,14 @@ mod common;
 
 mod agree;
 mod axes;
+mod decode_table;
 mod exhaustive;
 mod golden;
+mod low_dimensions;
 mod max_error;
 mod packing;
+mod readme;
 mod reference;
 mod scalar;
+mod schinko;
 mod survey;

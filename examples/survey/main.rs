@@ -1,15 +1,19 @@
-//! Measures error and speed of every codec on real vectors: `cargo run --release --example survey
-//! -- --help`
+//! Measures error and speed of every codec on real vectors, and compares with what was published:
+//! `cargo run --release --example survey -- --help`
 
 mod load;
 mod measure;
+#[path = "../../tests/common/published.rs"]
 mod published;
+mod readme;
 mod report;
 mod vectors;
 
+use std::fs;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use unitpack::Format;
@@ -19,7 +23,9 @@ use report::{CSV_HEADER, Report, legend, thousands};
 use vectors::{TORUS_KNOT, Vectors};
 
 const HELP: &str = "\
-Measures error and speed of every codec of unitpack.
+Measures error and speed of every codec of unitpack, and compares the errors with those
+that Cigolle et al. published: Tables 1 and 3 of A Survey of Efficient Representations for Independent
+Unit Vectors (2014).
 
 Usage: survey [OPTIONS] [FILE]...
 
@@ -30,7 +36,8 @@ Options:
       --format NAME  only this codec, such as oct16 (may be repeated)
       --vectors N    how many uniform random vectors [default: 1000000]
       --seed N       which uniform random vectors [default: 1]
-      --csv          comma-separated values instead of the table
+      --csv          comma-separated values instead of the tables
+      --readme FILE  also write the table of codecs between its marks in FILE
   -h, --help         this text
 
 Exit status: 0, 1 if a file could not be read, 2 for a mistake on the command line.
@@ -44,6 +51,7 @@ struct Options {
     vectors: usize,
     seed: u64,
     csv: bool,
+    readme: Option<PathBuf>,
 }
 
 impl Options {
@@ -51,7 +59,7 @@ impl Options {
     fn parse() -> Result<Option<Options>, lexopt::Error> {
         use lexopt::prelude::*;
         let (mut files, mut formats) = (Vec::new(), Vec::new());
-        let (mut vectors, mut seed, mut csv) = (None, None, false);
+        let (mut vectors, mut seed, mut csv, mut readme) = (None, None, false, None);
         let mut parser = lexopt::Parser::from_env();
         while let Some(arg) = parser.next()? {
             match arg {
@@ -59,6 +67,7 @@ impl Options {
                 Long("vectors") => vectors = Some(parser.value()?.parse_with(vector_count)?),
                 Long("seed") => seed = Some(parser.value()?.parse()?),
                 Long("csv") => csv = true,
+                Long("readme") => readme = Some(parser.value()?.into()),
                 Short('h') | Long("help") => return Ok(None),
                 Value(file) => files.push(file.into()),
                 _ => return Err(arg.unexpected()),
@@ -69,11 +78,16 @@ impl Options {
                 "--vectors and --seed are of the random vectors: not together with files".into()
             );
         }
+        if readme.is_some() && !(files.is_empty() && formats.is_empty()) {
+            return Err("--readme is of all codecs on random vectors: not together with files or \
+                 --format"
+                .into());
+        }
         if formats.is_empty() {
             formats = Format::ALL.to_vec();
         }
         let (vectors, seed) = (vectors.unwrap_or(1_000_000), seed.unwrap_or(1));
-        Ok(Some(Options { files, formats, vectors, seed, csv }))
+        Ok(Some(Options { files, formats, vectors, seed, csv, readme }))
     }
 }
 
@@ -131,6 +145,8 @@ struct Input {
 }
 
 fn inputs(options: &Options) -> Result<Vec<Input>, String> {
+    // Before minutes of measuring.
+    options.readme.as_deref().map(read_readme).transpose()?;
     if options.files.is_empty() {
         let (count, seed) = (options.vectors, options.seed);
         let (rings, sides) = TORUS_KNOT;
@@ -161,7 +177,18 @@ fn inputs(options: &Options) -> Result<Vec<Input>, String> {
     options.files.iter().map(load).collect()
 }
 
+/// A README that has a table of codecs.
+fn read_readme(path: &Path) -> Result<String, String> {
+    let read = || {
+        let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
+        readme::extract(&text)?;
+        Ok(text)
+    };
+    read().map_err(|error: String| format!("{}: {error}", path.display()))
+}
+
 fn run(options: &Options, inputs: &[Input]) -> io::Result<()> {
+    let start = Instant::now();
     let mut out = io::stdout().lock();
     if cfg!(debug_assertions) {
         eprintln!("built without optimisation, the times say little: use cargo run --release");
@@ -171,8 +198,9 @@ fn run(options: &Options, inputs: &[Input]) -> io::Result<()> {
     }
     // Draws nothing where standard error is no terminal.
     let bar = ProgressBar::new((inputs.len() * options.formats.len()) as u64);
-    bar.set_style(ProgressStyle::with_template("[{bar:40}] {pos}/{len} {msg}").expect("valid"));
-    let mut tally = None;
+    let style = "[{bar:40}] {pos}/{len}, {elapsed} of about {duration}: {msg}";
+    bar.set_style(ProgressStyle::with_template(style).expect("valid"));
+    let mut uniform = None;
     for input in inputs {
         let report = Report {
             input: &input.name,
@@ -181,9 +209,6 @@ fn run(options: &Options, inputs: &[Input]) -> io::Result<()> {
             left_out: input.left_out,
             rows: measure_all(&options.formats, input, &bar),
         };
-        if input.uniform {
-            tally = report.tally();
-        }
         bar.suspend(|| {
             if !options.csv {
                 return report.write_table(&mut out);
@@ -193,12 +218,26 @@ fn run(options: &Options, inputs: &[Input]) -> io::Result<()> {
             }
             report.write_csv(&mut out)
         })?;
+        if input.uniform {
+            uniform = Some(report);
+        }
     }
     bar.finish_and_clear();
+    if let (Some(path), Some(report)) = (&options.readme, &uniform) {
+        let table = readme::table(|format, precise| report.mean(format, precise));
+        let text = read_readme(path).and_then(|text| readme::replace(&text, &table));
+        fs::write(path, text.map_err(io::Error::other)?)
+            .map_err(|e| io::Error::new(e.kind(), format!("{}: {e}", path.display())))?;
+    }
     if !options.csv {
-        writeln!(out, "{}", legend())?;
-        if let Some(tally) = tally {
-            writeln!(out, "\n{tally}")?;
+        writeln!(out, "{}\n", legend())?;
+        let comparison = uniform.as_ref().map(|report| report.compare());
+        if let Some(comparison) = &comparison {
+            comparison.write_tables(&mut out)?;
+        }
+        writeln!(out, "Measured in {:.1} s.", start.elapsed().as_secs_f64())?;
+        if let Some(tally) = comparison.and_then(|comparison| comparison.tally()) {
+            writeln!(out, "{tally}")?;
         }
     }
     out.flush()
@@ -212,16 +251,17 @@ fn measure_all(formats: &[Format], input: &Input, bar: &ProgressBar) -> Vec<Row>
     let mut rows = Vec::new();
     for &format in formats {
         bar.set_message(format.name());
-        let on_hemisphere = format.is_hemisphere();
-        let vectors = if on_hemisphere { hemisphere } else { sphere };
-        rows.push(measure(format, false, on_hemisphere, vectors));
-        if !(encoders_agree(format, vectors.soa()) && encoders_agree(format, sample.soa())) {
-            rows.push(measure(format, true, on_hemisphere, vectors));
-        }
-        // The survey's Table 3 has some codecs of the sphere too, to compare those of the
-        // hemisphere with.
+        let own = format.is_hemisphere();
         for precise in [false, true] {
-            if input.uniform && !on_hemisphere && published::find(format, precise, true).is_some() {
+            let published =
+                |domain| input.uniform && published::find(format, precise, domain).is_some();
+            if !precise || published(own) || !encoders_agree(format, sample.soa()) {
+                let vectors = if own { hemisphere } else { sphere };
+                rows.push(measure(format, precise, own, vectors));
+            }
+            // The survey's Table 3 has some codecs of the sphere too, to compare those of the
+            // hemisphere with.
+            if !own && published(true) {
                 rows.push(measure(format, precise, true, hemisphere));
             }
         }

@@ -21,10 +21,10 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Formula, One, Packed, Three, Words};
+use crate::formula::{Formula, One, Packed, Symmetric, Three, Words};
 use crate::half;
 use crate::lane::{Each, Lane, LaneInt, LaneMask};
-use crate::layout::snorm_max;
+use crate::layout::{snorm_max, unorm_max};
 use crate::math::{chord_squared, inv_sqrt, length_squared, normalize, sqrt};
 
 /// Three components on a grid.
@@ -40,6 +40,8 @@ pub(crate) trait Grid: 'static {
     /// Whether f32 tells all directions of the grid apart. It is then so coarse that the nearest
     /// may be half a step off.
     const DISTINCT: bool;
+    /// From one grid point to the next, in steps.
+    const PITCH: i32 = 1;
 
     /// The `n`th value for the largest component, `n` from 1 to [`LENGTHS`](Self::LENGTHS).
     #[inline(always)]
@@ -59,7 +61,7 @@ pub(crate) trait Grid: 'static {
     /// nearest to 1.
     #[inline(always)]
     fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
-        integer_representative::<L>(point, Self::STEPS)
+        integer_representative::<L>(point, Self::STEPS, Self::PITCH)
     }
     fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L>
     where
@@ -109,6 +111,61 @@ impl Grid for Snorm16 {
         code.each(|c| c.sign_extend(16).max(L::Int::splat(-snorm_max(16))))
     }
 }
+
+/// Biased unorm of `BITS` bits, (c + 1) / 2: the odd numbers from -(2^BITS - 1). No component is
+/// zero.
+pub(crate) struct Unorm<const BITS: u32>;
+
+impl<const BITS: u32> Unorm<BITS> {
+    const M: i32 = unorm_max(BITS);
+
+    #[inline(always)]
+    fn index<L: Lane>(i: L::Int) -> L::Int {
+        (i + L::Int::splat(Self::M)).sar(1)
+    }
+    #[inline(always)]
+    fn odd<L: Lane>(index: L::Int) -> L::Int {
+        index.low(BITS).shl(1) - L::Int::splat(Self::M)
+    }
+}
+
+/// What unorm grids share, whatever holds their codes.
+macro_rules! unorm_grid {
+    ($bits:literal, $words:ty, $distinct:literal, $pack:expr, $unpack:expr) => {
+        impl Grid for Unorm<$bits> {
+            type Words = $words;
+            const STEPS: [f32; 3] = [unorm_max($bits) as f32; 3];
+            const LENGTHS: i32 = (unorm_max($bits) + 1) / 2;
+            const DISTINCT: bool = $distinct;
+            const PITCH: i32 = 2;
+
+            #[inline(always)]
+            fn length<L: Lane>(n: L, step: L) -> L {
+                (n + n - L::splat(1.0)) * step
+            }
+            #[inline(always)]
+            fn nearest<L: Lane>(x: L, steps: L) -> L::Int {
+                let half = steps * L::splat(0.5);
+                (x * half + half).round_int().shl(1) - L::Int::splat(Self::M)
+            }
+            #[inline(always)]
+            fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L> {
+                $pack(v.each(|i| Self::index::<L>(i)))
+            }
+            #[inline(always)]
+            fn unpack<L: Lane>(code: Packed<Cartesian<Self>, L>) -> [L::Int; 3] {
+                $unpack(code).each(|i| Self::odd::<L>(i))
+            }
+        }
+    };
+}
+
+unorm_grid!(8, One, true, |[x, y, z]: [L::Int; 3]| x | y.shl(8) | z.shl(16), |code: L::Int| [
+    code,
+    code.shr(8),
+    code.shr(16)
+]);
+unorm_grid!(16, Three, false, |v| v, |v| v);
 
 /// IEEE halves. The largest component of a canonical code is from 0.5 to 1.
 pub(crate) struct Halves;
@@ -201,17 +258,24 @@ impl<G: Grid> Cartesian<G> {
 
 /// [`Grid::representative`] where the values are integers over `steps`.
 #[inline(always)]
-fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3]) -> [L::Int; 3] {
+fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i32) -> [L::Int; 3] {
     let [x, y, z] = point.each(|i| L::from_int(i.abs()));
     let divisor = gcd(gcd(x, y), z);
     let primitive = point.each(|i| L::from_int(i) / divisor);
     let values = [0, 1, 2].each(|i: usize| primitive[i] * L::splat(1.0 / steps[i]));
     // As many times as bring it nearest to 1, but not beyond the grid.
-    let times = inv_sqrt(length_squared(values)).round();
-    let room = [0, 1, 2].each(|i: usize| {
-        (L::splat(steps[i] + 0.5) / primitive[i].abs().greater(L::splat(0.01))).floor()
-    });
-    let times = times.lesser(room[0]).lesser(room[1]).lesser(room[2]);
+    let times = inv_sqrt(length_squared(values));
+    let room = [0, 1, 2]
+        .each(|i: usize| L::splat(steps[i] + 0.5) / primitive[i].abs().greater(L::splat(0.01)));
+    let room = room[0].lesser(room[1]).lesser(room[2]);
+    let times = if pitch == 1 {
+        times.round().lesser(room.floor())
+    } else {
+        // Odd points have only odd multiples.
+        let (half, one) = (L::splat(0.5), L::splat(1.0));
+        let pairs = ((times - one) * half).round().lesser(((room - one) * half).floor());
+        pairs + pairs + one
+    };
     primitive.each(|c| (c * times).round_int())
 }
 
@@ -304,7 +368,8 @@ impl<L: Lane> Search<L> {
                 // component may go the other way.
                 let values = Cartesian::<G>::values::<L>(rounded);
                 for axis in 0..3 {
-                    let count = |mask| L::Int::select(mask, L::Int::splat(1), L::Int::splat(0));
+                    let count =
+                        |mask| L::Int::select(mask, L::Int::splat(G::PITCH), L::Int::splat(0));
                     let up = count(values[axis].lt(ideal[axis]));
                     let down = count(ideal[axis].lt(values[axis]));
                     let mut point = rounded;
@@ -325,7 +390,7 @@ impl<G: Grid> Formula for Cartesian<G> {
         G::pack::<L>(Self::nearest(normalize(v)))
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> Packed<Self, L> {
         let point = Search::new::<G>(v).nearest::<G>();
         let point = if G::DISTINCT { G::representative::<L>(point) } else { point };
@@ -335,6 +400,55 @@ impl<G: Grid> Formula for Cartesian<G> {
     #[inline(always)]
     fn decode<L: Lane>(code: Packed<Self, L>) -> [L; 3] {
         Self::unit(Self::values::<L>(G::unpack::<L>(code)))
+    }
+}
+
+impl<const X: u32, const Y: u32, const Z: u32> Symmetric for Cartesian<Snorm<X, Y, Z>> {
+    const ENTRIES: usize = 1 << (X + Y + Z - 3);
+
+    #[inline(always)]
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        let point = <Snorm<X, Y, Z> as Grid>::unpack::<L>(code);
+        let [x, y, z] = point.each(|i| i.abs());
+        (x | y.shl(X - 1) | z.shl(X + Y - 2), point.each(|i| i.lt(L::Int::splat(0))))
+    }
+}
+
+/// Crytek's best-fit normals: the grid of `Unorm<8>`, its fast encoder reading the length from a
+/// table.
+///
+/// With a >= b >= c the magnitudes, the table over (b / a, c / b) has the length, (2 k - 1) / 255
+/// on the largest component, with which rounding points closest to the middle of its texel. 512 x
+/// 512 bytes.
+pub(crate) struct BestFit;
+
+static BEST_FIT: &[u8; 512 * 512] = include_bytes!(concat!(env!("OUT_DIR"), "/best_fit.bin"));
+
+impl Formula for BestFit {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        let [x, y, z] = v.each(|c| c.abs());
+        let (a, rest) = (x.greater(y), x.lesser(y));
+        let (a, b, c) = (a.greater(z), a.lesser(z).greater(rest), rest.lesser(z));
+        let texel = |t: L| (t * L::splat(512.0)).floor().round_int().min(L::Int::splat(511));
+        let (u, v_texel) = (texel(b / a), texel(c / b.greater(L::splat(1e-30))));
+        let largest = L::from_int(L::gather(BEST_FIT, v_texel.shl(9) + u));
+        let scale = largest * L::splat(1.0 / 255.0) / a;
+        let steps = L::splat(255.0);
+        let point = v.each(|c| Unorm::<8>::nearest(c * scale, steps));
+        Unorm::<8>::pack::<L>(Unorm::<8>::representative::<L>(point))
+    }
+
+    #[inline(never)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        Cartesian::<Unorm<8>>::encode_precise(v)
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        Cartesian::<Unorm<8>>::decode(code)
     }
 }
 

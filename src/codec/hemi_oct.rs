@@ -12,7 +12,7 @@
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 //! 2014.
 
-use crate::formula::{Formula, One, closest_of_four};
+use crate::formula::{Formula, One, Symmetric, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math;
@@ -55,5 +55,19 @@ impl<const BITS: u32> Formula for HemiOct<BITS> {
         let z = L::Int::splat(Self::M) - u.abs().max(w.abs());
         let p = [u + w, u - w, z + z];
         math::normalize(p.each(|c| L::from_int(c) * L::splat(0.5 / Self::M as f32)))
+    }
+}
+
+impl<const BITS: u32> Symmetric for HemiOct<BITS> {
+    const ENTRIES: usize = (Self::M as usize + 1) * (Self::M as usize + 1);
+
+    #[inline(always)]
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        let zero = L::Int::splat(0);
+        let [u, w] = unpack_snorm2::<BITS, L>(code);
+        let (x, y) = (u + w, u - w);
+        // The parameters of (|x|, |y|): the first from 0, the second from minus to plus the first.
+        let (a, b) = ((x.abs() + y.abs()).sar(1), (x.abs() - y.abs()).sar(1));
+        (a * (a + L::Int::splat(1)) + b, [x.lt(zero), y.lt(zero), zero.lt(zero)])
     }
 }

@@ -19,9 +19,9 @@
 //! 2010; Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 //! 2014.
 
-use crate::formula::{Formula, One};
+use crate::formula::{Formula, One, Symmetric, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt};
-use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
+use crate::layout::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
 use crate::math;
 
 /// Octahedral in `BITS` bits.
@@ -66,32 +66,8 @@ impl<const BITS: u32> Formula for Oct<BITS> {
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        let p = Self::project(v);
         let max = L::splat(Self::M as f32);
-        let one = L::splat(1.0);
-        let floor = p.each(|c| c.floor());
-        // The triangle around p: one short of M above the floors, or two.
-        let short = max - floor[0] - floor[1] - floor[2];
-        let down = L::splat(1.5).lt(short);
-        let base = floor.each(|c| L::select(down, c + one, c));
-        let step = max - base[0] - base[1] - base[2];
-        // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
-        let pp = math::length_squared(p);
-        let corner = |axis: usize| {
-            let mut q = base;
-            q[axis] = q[axis] + step;
-            let d = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
-            let along = p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
-            let off = math::length_squared(d) * pp - along * along;
-            (q, off, math::length_squared(q))
-        };
-        let closer = |a: ([L; 3], L, L), b: ([L; 3], L, L)| {
-            let b_wins = (b.1 * a.2).lt(a.1 * b.2);
-            let pick = |a, b| L::select(b_wins, b, a);
-            let q = [0, 1, 2].each(|i: usize| pick(a.0[i], b.0[i]));
-            (q, pick(a.1, b.1), pick(a.2, b.2))
-        };
-        let ([i, j, _], ..) = closer(closer(corner(0), corner(1)), corner(2));
+        let [i, j, _] = nearest_on_octahedron(Self::project(v), Self::M);
         let lower = v[2].lt(L::zero());
         let u = L::select(lower, max - j, i).round_int();
         let w = L::select(lower, max - i, j).round_int();
@@ -100,16 +76,140 @@ impl<const BITS: u32> Formula for Oct<BITS> {
 
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        unfold::<L>(unpack_snorm2::<BITS, L>(code), Self::M)
+    }
+}
+
+impl<const BITS: u32> Symmetric for Oct<BITS> {
+    const ENTRIES: usize = triangle_len(Self::M);
+
+    #[inline(always)]
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        let (max, zero) = (L::Int::splat(Self::M), L::Int::splat(0));
         let [u, w] = unpack_snorm2::<BITS, L>(code);
         let (i, j) = (u.abs(), w.abs());
-        let k = L::Int::splat(Self::M) - i - j;
-        // Below the diagonals, fold back.
-        let fold = (-k).max(L::Int::splat(0));
-        let copy_sign = |magnitude: L::Int, sign: L::Int| {
-            let s = sign.sar(31);
-            (magnitude ^ s) - s
-        };
-        let p = [copy_sign(i - fold, u), copy_sign(j - fold, w), k];
-        math::normalize(p.each(|c| L::from_int(c) * L::splat(1.0 / Self::M as f32)))
+        let lower = max.lt(i + j);
+        let (i, j) = (L::Int::select(lower, max - j, i), L::Int::select(lower, max - i, j));
+        let flips = [u.lt(zero) & zero.lt(i), w.lt(zero) & zero.lt(j), lower];
+        (triangle_index::<L>(i, j), flips)
     }
+}
+
+/// How many points (i, j) with i + j <= m there are.
+pub(crate) const fn triangle_len(m: i32) -> usize {
+    (m as usize + 1) * (m as usize + 2) / 2
+}
+
+/// The number of a point (i, j), counted by i + j.
+#[inline(always)]
+pub(crate) fn triangle_index<L: Lane>(i: L::Int, j: L::Int) -> L::Int {
+    let n = i + j;
+    (n * (n + L::Int::splat(1))).shr(1) + j
+}
+
+/// The vector of a point of the square from -m to m.
+#[inline(always)]
+fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
+    let (i, j) = (u.abs(), w.abs());
+    let k = L::Int::splat(m) - i - j;
+    // Below the diagonals, fold back.
+    let fold = (-k).max(L::Int::splat(0));
+    let copy_sign = |magnitude: L::Int, sign: L::Int| {
+        let s = sign.sar(31);
+        (magnitude ^ s) - s
+    };
+    let p = [copy_sign(i - fold, u), copy_sign(j - fold, w), k];
+    math::normalize(p.each(|c| L::from_int(c) * L::splat(1.0 / m as f32)))
+}
+
+/// Octahedral in biased unorm, (c + 1) / 2, of `BITS / 2` bits each: the odd numbers from -m to m =
+/// 2^(BITS/2) - 1. It has no zero, so of the axes only -Z, a corner of the square, survives.
+///
+/// Source: Narkowicz, "Octahedron Normal Vector Encoding", 2014.
+pub(crate) struct OctUnorm<const BITS: u32>;
+
+impl<const BITS: u32> OctUnorm<BITS> {
+    const M: i32 = unorm_max(BITS / 2);
+
+    /// The two parameters as indices from 0 to m.
+    #[inline(always)]
+    fn params<L: Lane>(v: [L; 3]) -> [L; 2] {
+        let [x, y, z] = v.each(|c| c.abs());
+        let half = L::splat(0.5 * Self::M as f32);
+        let scale = half / (x + y + z);
+        let (x, y) = (x * scale, y * scale);
+        let lower = v[2].lt(L::zero());
+        let u = L::select(lower, half - y, x).negate_where_negative(v[0]);
+        let w = L::select(lower, half - x, y).negate_where_negative(v[1]);
+        [u + half, w + half]
+    }
+
+    /// The nearest point of the square, canonical.
+    #[inline(always)]
+    fn canonical<L: Lane>(indices: [L::Int; 2]) -> [L::Int; 2] {
+        let max = L::Int::splat(Self::M);
+        let [u, w] = indices.each(|i| (i + i - max).max(-max).min(max));
+        let (au, aw) = (u.abs(), w.abs());
+        [L::Int::select(aw.eq(max), au, u), L::Int::select(au.eq(max), aw, w)]
+    }
+
+    #[inline(always)]
+    fn pack<L: Lane>(point: [L::Int; 2]) -> L::Int {
+        pack2::<BITS, L>(point.each(|i| (i + L::Int::splat(Self::M)).sar(1)))
+    }
+}
+
+impl<const BITS: u32> Formula for OctUnorm<BITS> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        let indices = Self::params(v).each(|p| p.round_int());
+        Self::pack::<L>(Self::canonical::<L>(indices))
+    }
+
+    #[inline(always)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        closest_of_four(v, Self::params(v), |indices| {
+            let point = Self::canonical::<L>(indices);
+            (Self::pack::<L>(point), unfold::<L>(point, Self::M))
+        })
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let max = L::Int::splat(Self::M);
+        unfold::<L>(unpack2::<BITS, L>(code).each(|i| i + i - max), Self::M)
+    }
+}
+
+/// Of the lattice points i + j + k = m of an octant, the one nearest in angle to `p`, whose
+/// components are >= 0 and add to m.
+#[inline(always)]
+pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
+    let max = L::splat(m as f32);
+    let one = L::splat(1.0);
+    let floor = p.each(|c| c.floor());
+    // The triangle around p: one short of M above the floors, or two.
+    let short = max - floor[0] - floor[1] - floor[2];
+    let down = L::splat(1.5).lt(short);
+    let base = floor.each(|c| L::select(down, c + one, c));
+    let step = max - base[0] - base[1] - base[2];
+    // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
+    let pp = math::length_squared(p);
+    let corner = |axis: usize| {
+        let mut q = base;
+        q[axis] = q[axis] + step;
+        let d = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
+        let along = p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
+        let off = math::length_squared(d) * pp - along * along;
+        (q, off, math::length_squared(q))
+    };
+    let closer = |a: ([L; 3], L, L), b: ([L; 3], L, L)| {
+        let b_wins = (b.1 * a.2).lt(a.1 * b.2);
+        let pick = |a, b| L::select(b_wins, b, a);
+        let q = [0, 1, 2].each(|i: usize| pick(a.0[i], b.0[i]));
+        (q, pick(a.1, b.1), pick(a.2, b.2))
+    };
+    closer(closer(corner(0), corner(1)), corner(2)).0
 }

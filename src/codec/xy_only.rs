@@ -20,7 +20,7 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Closest, Formula, One};
+use crate::formula::{Closest, Formula, One, Symmetric};
 use crate::half;
 use crate::lane::{Each, Lane, LaneInt, LaneMask};
 use crate::layout::{pack2, unorm_max, unpack2};
@@ -197,7 +197,7 @@ impl<G: Grid> Formula for XyOnly<G> {
         G::pack::<L>(Self::canonical::<L>([G::nearest(x), G::nearest(y)]))
     }
 
-    #[inline(always)]
+    #[inline(never)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         let [x, y, z] = normalize(v);
         // Walk along the greater component, whose steps are the coarser.
@@ -269,5 +269,17 @@ impl<G: Grid> Formula for XyOnly<G> {
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         Self::point::<L>(G::unpack::<L>(code))
+    }
+}
+
+impl<const BITS: u32> Symmetric for XyOnly<Unorm<BITS>> {
+    const ENTRIES: usize = 1 << (BITS - 2);
+
+    #[inline(always)]
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        let zero = L::Int::splat(0);
+        let [x, y] = <Unorm<BITS> as Grid>::unpack::<L>(code);
+        let index = x.abs().shr(1) | y.abs().shr(1).shl(BITS / 2 - 1);
+        (index, [x.lt(zero), y.lt(zero), zero.lt(zero)])
     }
 }

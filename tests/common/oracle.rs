@@ -6,7 +6,8 @@
 //! where the parameters stand in a code. [`Oracle`] makes the rest from that: both directions,
 //! which codes a fast encoder may give, and which codes lie near a vector.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2, TAU};
+use std::sync::LazyLock;
 
 use super::{cross, length};
 
@@ -35,9 +36,24 @@ pub trait Representation: Send + Sync {
         false
     }
 
+    /// All tuples that rounding the parameters of `v` may give: one, but for parameters that `f32`
+    /// cannot tell from a tie.
+    fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
+        let error = self.params_error();
+        let of = self.params(v).map(|p| rounding(p, error));
+        let range = self.range();
+        let clamp = |i: usize, p: i64| p.clamp(range[i].0, range[i].1);
+        window(range, std::array::from_fn(|i| (clamp(i, of[i].0), clamp(i, of[i].1))))
+    }
+
+    /// How many steps around a point its neighbours may be, in each parameter.
+    fn reach(&self) -> Params<i64> {
+        [2; 3]
+    }
+
     /// Parameters that may be the nearest to `v`, the nearest certainly among them: all within two
     /// steps of `v`, and of the points one cell away from it, which may lie on the other side of a
-    /// fold or a pole.
+    /// fold, an edge or a pole.
     fn nearby(&self, v: [f64; 3], cell: f64) -> Vec<Params<i64>> {
         let least = (0..3).min_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs())).unwrap();
         let mut axis = [0.0; 3];
@@ -45,18 +61,27 @@ pub trait Representation: Send + Sync {
         let e = normalize(cross(v, axis));
         let f = cross(v, e);
         let steps = [-1.0, 0.0, 1.0];
-        let around = steps.iter().flat_map(|a| steps.iter().map(move |b| (a * cell, b * cell)));
+        let offsets = steps.iter().flat_map(|a| steps.iter().map(move |b| (a * cell, b * cell)));
         let mut found = Vec::new();
-        for (a, b) in around {
+        for (a, b) in offsets {
             let mut w: [f64; 3] = std::array::from_fn(|i| v[i] + a * e[i] + b * f[i]);
             if self.is_hemisphere() {
                 w[2] = w[2].max(0.0);
             }
             let middle = self.params(normalize(w)).map(|p| p.round_ties_even() as i64);
-            found.extend(window(self.range(), middle.map(|p| (p - 2, p + 2))));
+            found.extend(window(self.range(), around(middle, self.reach())));
         }
         found
     }
+}
+
+fn around(middle: Params<i64>, reach: Params<i64>) -> Params<(i64, i64)> {
+    std::array::from_fn(|i| (middle[i] - reach[i], middle[i] + reach[i]))
+}
+
+/// The integers that `p`, known but for `error`, may be rounded to: the least and the greatest.
+fn rounding(p: f64, error: f64) -> (i64, i64) {
+    ((p - error).round_ties_even() as i64, (p + error).round_ties_even() as i64)
 }
 
 /// All tuples from the least to the greatest of each parameter that are in range.
@@ -104,20 +129,11 @@ impl Oracle {
         self.representation.pack(self.representation.canonical(params))
     }
 
-    /// Every code that rounding each parameter may give: one, but for parameters that `f32` cannot
-    /// tell from a tie.
+    /// Every code that the fast encoder may give: one, but for parameters that `f32` cannot tell
+    /// from a tie.
     pub fn encodings(&self, v: [f64; 3]) -> Vec<u128> {
-        let exact = self.representation.params(v);
-        let error = self.representation.params_error();
-        let of = exact
-            .map(|p| ((p - error).round_ties_even() as i64, (p + error).round_ties_even() as i64));
-        let range = self.representation.range();
-        let of = std::array::from_fn(|i| {
-            let clamp = |p: i64| p.clamp(range[i].0, range[i].1);
-            (clamp(of[i].0), clamp(of[i].1))
-        });
         let pack = |params| self.representation.pack(self.representation.canonical(params));
-        window(range, of).into_iter().map(pack).collect()
+        self.representation.rounded(v).into_iter().map(pack).collect()
     }
 
     /// The angle from `v` to the nearest code that a search around it finds.
@@ -149,10 +165,14 @@ fn normalize(v: [f64; 3]) -> [f64; 3] {
 
 /// The oracle of a format, by its name.
 pub fn oracle(name: &str) -> Option<Oracle> {
-    let family = name.trim_end_matches(|c: char| c.is_ascii_digit());
-    let size = name[family.len()..].parse().unwrap_or(0);
+    // latlong16D and XYOnly32F have their size in the middle.
+    let stem = name.strip_suffix('D').unwrap_or(name);
+    let family = stem.trim_end_matches(|c: char| c.is_ascii_digit());
+    let size = stem[family.len()..].parse().unwrap_or(0);
     let pair = |kind| Pair { bits: size / 2, kind };
     let (bits, representation): (u32, Box<dyn Representation>) = match (family, size) {
+        ("latlong", 16 | 24 | 32) if stem != name => (size, Box::new(LatLongD::new(size))),
+        _ if stem != name => return None,
         ("oct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm)))),
         ("spherical", 1..) => (size, Box::new(Spherical(pair(Kind::Snorm)))),
         ("HemiOct", 1..) => (size, Box::new(HemiOct(pair(Kind::Snorm)))),
@@ -165,6 +185,35 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         ("snorm16x", 3) => (48, Box::new(Snorm([16, 16, 16]))),
         ("float16x", 3) => (48, Box::new(Float16)),
         ("float32x", 3) => (96, Box::new(Float32)),
+        ("latlong", 1..) => (size, Box::new(LatLong::new(size))),
+        ("cube", 1..) => (size, Box::new(Cube::new(size, false))),
+        ("warpedcube", 1..) => (size, Box::new(Cube::new(size, true))),
+        ("angularcube", 1..) => (size, Box::new(AngularCube::new(size))),
+        ("octant", 16) => (16, Box::new(Octant)),
+        ("icosphere", 162) => (8, Box::new(Icosphere::new())),
+        ("xyz-unorm8x", 3) => (24, Box::new(Unorm(8))),
+        ("xyz-unorm16x", 3) => (48, Box::new(Unorm(16))),
+        ("CrytekBFN", 24) => (24, Box::new(BestFit(Unorm(8)))),
+        ("phi-z-unorm8x", 2) => (16, Box::new(PhiZ(Pair { bits: 8, kind: Kind::Unorm }))),
+        ("phi-z-unorm16x", 2) => (32, Box::new(PhiZ(Pair { bits: 16, kind: Kind::Unorm }))),
+        ("oct-unorm8x", 2) => (16, Box::new(Oct(Pair { bits: 8, kind: Kind::Unorm }))),
+        ("oct-unorm16x", 2) => (32, Box::new(Oct(Pair { bits: 16, kind: Kind::Unorm }))),
+        (_, 1..) => {
+            let (projection, stretch) = family.split_once('+').unwrap_or((family, ""));
+            let projection = match projection {
+                "stereo" => Projection::Stereo,
+                "eqarea" => Projection::EqArea,
+                "eqdist" => Projection::EqDist,
+                _ => return None,
+            };
+            let stretch = match stretch {
+                "" => Stretch::Plain,
+                "concentric" => Stretch::Concentric,
+                "ellipse" => Stretch::Ellipse,
+                _ => return None,
+            };
+            (size, Box::new(Disk { pair: pair(Kind::Snorm), projection, stretch }))
+        }
         _ => return None,
     };
     Some(Oracle { representation, bits })
@@ -210,6 +259,32 @@ impl Pair {
         match self.kind {
             Kind::Snorm => snorm_steps(self.bits),
             Kind::Unorm => (1 << self.bits) - 1,
+        }
+    }
+
+    /// Where a number from -1 to 1 stands.
+    fn position(self, t: f64) -> f64 {
+        match self.kind {
+            Kind::Snorm => t * self.steps() as f64,
+            Kind::Unorm => (t + 1.0) / 2.0 * self.steps() as f64,
+        }
+    }
+
+    /// The number from -1 to 1 that `param` stands for.
+    fn value(self, param: i64) -> f64 {
+        let steps = self.steps();
+        match self.kind {
+            Kind::Snorm => param as f64 / steps as f64,
+            // The numerator is whole, so that values are symmetric about 0.
+            Kind::Unorm => (2 * param - steps) as f64 / steps as f64,
+        }
+    }
+
+    /// The parameter of the same magnitude, not negative.
+    fn magnitude(self, param: i64) -> i64 {
+        match self.kind {
+            Kind::Snorm => param.abs(),
+            Kind::Unorm => param.max(self.steps() - param),
         }
     }
 
@@ -261,7 +336,7 @@ impl Representation for Oct {
         } else {
             ((1.0 - py.abs()) * sign(px), (1.0 - px.abs()) * sign(py))
         };
-        [u, w, 0.0].map(|p| p * self.0.steps() as f64)
+        [self.0.position(u), self.0.position(w), 0.0]
     }
     fn params_error(&self) -> f64 {
         steps_error(self.0.steps())
@@ -270,7 +345,7 @@ impl Representation for Oct {
         self.0.range()
     }
     fn vector(&self, params: Params<i64>) -> [f64; 3] {
-        let [u, w, _] = params.map(|p| p as f64 / self.0.steps() as f64);
+        let [u, w] = [params[0], params[1]].map(|p| self.0.value(p));
         let z = 1.0 - u.abs() - w.abs();
         let (x, y) =
             if z < 0.0 { ((1.0 - w.abs()) * sign(u), (1.0 - u.abs()) * sign(w)) } else { (u, w) };
@@ -284,8 +359,8 @@ impl Representation for Oct {
     }
     /// On the border of the square, the points mirrored in the middle of a side are one.
     fn canonical(&self, [u, w, _]: Params<i64>) -> Params<i64> {
-        let border = self.0.steps();
-        let folded = |p: i64, other: i64| if other.abs() == border { p.abs() } else { p };
+        let is_border = |p: i64| self.0.magnitude(p) == self.0.steps();
+        let folded = |p: i64, other: i64| if is_border(other) { self.0.magnitude(p) } else { p };
         [folded(u, w), folded(w, u), 0]
     }
 }
@@ -542,14 +617,13 @@ enum Component {
 impl Component {
     fn position(&self, x: f64) -> f64 {
         match self {
-            Component::Unorm(pair) => (x + 1.0) / 2.0 * pair.steps() as f64,
+            Component::Unorm(pair) => pair.position(x),
             Component::Half => half::position(x),
         }
     }
     fn value(&self, param: i64) -> f64 {
         match self {
-            // The numerator is whole, so that values are symmetric about 0.
-            Component::Unorm(pair) => (2 * param - pair.steps()) as f64 / pair.steps() as f64,
+            Component::Unorm(pair) => pair.value(param),
             Component::Half => half::value(param),
         }
     }
@@ -666,5 +740,856 @@ impl Representation for XyOnly {
             found.extend(far.into_iter().flatten());
         }
         found
+    }
+}
+
+/// x, y and z as biased unorm of so many bits, x in the low ones. Parameters count the values up
+/// from -1, in odd multiples of 1 / steps.
+struct Unorm(u32);
+
+impl Unorm {
+    fn component(&self) -> Pair {
+        Pair { bits: self.0, kind: Kind::Unorm }
+    }
+    fn steps(&self) -> i64 {
+        self.component().steps()
+    }
+    /// The odd numerators of the values.
+    fn odd(&self, params: Params<i64>) -> Params<i64> {
+        params.map(|p| 2 * p - self.steps())
+    }
+}
+
+impl Representation for Unorm {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        v.map(|c| self.component().position(c))
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(self.steps())
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        [(0, self.steps()); 3]
+    }
+    fn vector(&self, params: Params<i64>) -> [f64; 3] {
+        normalize(self.odd(params).map(|p| p as f64))
+    }
+    fn pack(&self, [x, y, z]: Params<i64>) -> u128 {
+        x as u128 | (y as u128) << self.0 | (z as u128) << (2 * self.0)
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        [0, self.0, 2 * self.0].map(|shift| unsigned_field(code, shift, self.0))
+    }
+    /// Of the multiples of one tuple, the one whose length is nearest to 1. All have odd factors.
+    fn canonical(&self, params: Params<i64>) -> Params<i64> {
+        let odd = self.odd(params);
+        let divisor = odd.into_iter().fold(0, greatest_common_divisor);
+        let least = odd.map(|p| p / divisor);
+        let unit = self.steps() as f64 / length(least.map(|p| p as f64));
+        let below = ((unit as i64 - 1) | 1).max(1);
+        let fits = |n: i64| least.into_iter().all(|p| (p * n).abs() <= self.steps());
+        let off = |n: i64| (n as f64 - unit).abs();
+        let best = [below, below + 2].into_iter().filter(|&n| fits(n));
+        let n = best.min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap();
+        least.map(|p| (p * n + self.steps()) / 2)
+    }
+    fn nearby(&self, v: [f64; 3], _: f64) -> Vec<Params<i64>> {
+        // Any length: every value of the largest component, the others rounded down and up.
+        let long = (0..3).max_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs())).unwrap();
+        let around = |n: i64| {
+            let scale = self.component().value(n) / v[long].abs();
+            let ideal = v.map(|c| self.component().position(c * scale));
+            let mut of = ideal.map(|c| (c.floor() as i64, c.floor() as i64 + 1));
+            let n = if v[long] < 0.0 { self.steps() - n } else { n };
+            of[long] = (n, n);
+            window(self.range(), of)
+        };
+        ((self.steps() + 1) / 2..=self.steps()).flat_map(around).collect()
+    }
+}
+
+/// The codes of [`Unorm`], the length by which the fast encoder scales a vector from a table.
+struct BestFit(Unorm);
+
+/// For magnitudes a >= b >= c, indexed by 512 c / b and 512 b / a: the numerator of the value of
+/// the largest component with which rounding points closest to the middle of the texel.
+static LENGTHS: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let texels = (0..512 * 512).map(|at| {
+        // The middle of the texel, times 1024^2.
+        let (i, j) = (2 * (at % 512) + 1, 2 * (at / 512) + 1);
+        let middle: [i64; 3] = [1 << 20, i << 10, i * j];
+        let mut best = (0, 0, 1);
+        for n in (1..=255).rev().step_by(2) {
+            // The odd number nearest to n times a component; there are no ties.
+            let point = middle.map(|c| ((n * c) >> 20) | 1);
+            let along: i64 = (0..3).map(|i| point[i] * middle[i]).sum();
+            let squared: i64 = point.map(|c| c * c).iter().sum();
+            // The greatest cosine; exact, since parallel points are equally close.
+            let cosine = (along as u128).pow(2);
+            if cosine * best.2 > best.1 * squared as u128 {
+                best = (n, cosine, squared as u128);
+            }
+        }
+        best.0 as u8
+    });
+    texels.collect()
+});
+
+impl Representation for BestFit {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        self.0.params(v)
+    }
+    fn params_error(&self) -> f64 {
+        self.0.params_error()
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        self.0.range()
+    }
+    fn vector(&self, params: Params<i64>) -> [f64; 3] {
+        self.0.vector(params)
+    }
+    fn pack(&self, params: Params<i64>) -> u128 {
+        self.0.pack(params)
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        self.0.unpack(code)
+    }
+    fn canonical(&self, params: Params<i64>) -> Params<i64> {
+        self.0.canonical(params)
+    }
+    fn nearby(&self, v: [f64; 3], cell: f64) -> Vec<Params<i64>> {
+        self.0.nearby(v, cell)
+    }
+    fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
+        let mut sorted = v.map(f64::abs);
+        sorted.sort_by(f64::total_cmp);
+        let [c, b, a] = sorted;
+        // The texels that a ratio may be taken to lie in.
+        let texels = |ratio: f64| {
+            let [least, greatest] = [-1e-4, 1e-4].map(|e| (512.0 * ratio + e).floor() as usize);
+            least.min(511)..=greatest.min(511)
+        };
+        let mut all = Vec::new();
+        for i in texels(b / a) {
+            for j in texels(if b == 0.0 { 0.0 } else { c / b }) {
+                let scale = f64::from(LENGTHS[512 * j + i]) / 255.0 / a;
+                let of = self.params(v.map(|c| c * scale));
+                all.extend(window(self.range(), of.map(|p| rounding(p, self.params_error()))));
+            }
+        }
+        all
+    }
+}
+
+/// Azimuth and z.
+struct PhiZ(Pair);
+
+impl Representation for PhiZ {
+    fn params(&self, [x, y, z]: [f64; 3]) -> Params<f64> {
+        [self.0.position(y.atan2(x) / PI), self.0.position(z), 0.0]
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(self.0.steps())
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        self.0.range()
+    }
+    fn vector(&self, params: Params<i64>) -> [f64; 3] {
+        let [phi, z] = [params[0], params[1]].map(|p| self.0.value(p));
+        let r = (1.0 - z * z).sqrt();
+        [r * (phi * PI).cos(), r * (phi * PI).sin(), z]
+    }
+    fn pack(&self, params: Params<i64>) -> u128 {
+        self.0.pack(params)
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        self.0.unpack(code)
+    }
+    /// The azimuth of a pole is the first above 0; that of -X is positive.
+    fn canonical(&self, [phi, z, _]: Params<i64>) -> Params<i64> {
+        let steps = self.0.steps();
+        let phi = if z == 0 || z == steps {
+            (steps + 1) / 2
+        } else if phi == 0 {
+            steps
+        } else {
+            phi
+        };
+        [phi, z, 0]
+    }
+    fn nearby(&self, v: [f64; 3], _: f64) -> Vec<Params<i64>> {
+        // Rows are far apart at the poles, where many hold points closer than the nearest row's.
+        let [phi, z, _] = self.params(v).map(|p| p.floor() as i64);
+        window(self.range(), [(phi, phi + 1), (z - 50, z + 51), (0, 0)])
+    }
+}
+
+/// Parallels with equally many points, the poles included: `[parallel, point]`.
+struct LatLong {
+    bits: u32,
+    count: i64,
+}
+
+impl LatLong {
+    fn new(bits: u32) -> Self {
+        LatLong { bits, count: (1 << (bits / 2)) - 1 }
+    }
+}
+
+/// Azimuth from 0 to 1.
+fn turns([x, y, _]: [f64; 3]) -> f64 {
+    let phi = y.atan2(x) / TAU;
+    if phi < 0.0 { phi + 1.0 } else { phi }
+}
+
+/// Polar angle from 0 to 1.
+fn colatitude([x, y, z]: [f64; 3]) -> f64 {
+    x.hypot(y).atan2(z) / PI
+}
+
+fn on_sphere(colatitude: f64, turns: f64) -> [f64; 3] {
+    let (theta, phi) = (colatitude * PI, turns * TAU);
+    [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+}
+
+impl Representation for LatLong {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        [colatitude(v) * (self.count - 1) as f64, turns(v) * self.count as f64, 0.0]
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(self.count)
+    }
+    /// The last point of a parallel is its first.
+    fn range(&self) -> Params<(i64, i64)> {
+        [(0, self.count - 1), (0, self.count), (0, 0)]
+    }
+    fn vector(&self, [parallel, point, _]: Params<i64>) -> [f64; 3] {
+        on_sphere(parallel as f64 / (self.count - 1) as f64, point as f64 / self.count as f64)
+    }
+    fn pack(&self, [parallel, point, _]: Params<i64>) -> u128 {
+        (parallel * self.count + point) as u128
+    }
+    /// Indices beyond the last point read as the south pole.
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let index = unsigned_field(code, 0, self.bits);
+        if index < self.count * self.count {
+            [index / self.count, index % self.count, 0]
+        } else {
+            [self.count - 1, 0, 0]
+        }
+    }
+    /// A pole is the first point of its parallel.
+    fn canonical(&self, [parallel, point, _]: Params<i64>) -> Params<i64> {
+        let is_pole = parallel == 0 || parallel == self.count - 1;
+        [parallel, if is_pole { 0 } else { point % self.count }, 0]
+    }
+}
+
+/// Parallels with as many points as keep every direction within an angle.
+struct LatLongD {
+    bits: u32,
+    /// The index of the first point of each parallel, and at the end how many points there are.
+    begins: Vec<i64>,
+}
+
+impl LatLongD {
+    fn new(bits: u32) -> Self {
+        // Parallels, and the least angle with which all points fit, in degrees, a little rounded up
+        // so that f64 decides alike for all parallels that need a whole number of points.
+        let (parallels, degrees, total) = match bits {
+            16 => (227, 0.562_431_872_029_450_5, 65_536),
+            24 => (3_629, 0.035_068_965_621_449_066, 16_777_216),
+            _ => (58_073, 0.002_191_477_662_428_320_4, 4_294_967_295),
+        };
+        let last = parallels - 1;
+        let e: f64 = f64::to_radians(degrees);
+        let haversine = |angle: f64| (angle / 2.0).sin().powi(2);
+        let points = |parallel: i64| {
+            // Both hemispheres are alike, and to either side of the equator too.
+            let from_pole = parallel.min(last - parallel);
+            if from_pole == 0 {
+                return 1;
+            }
+            let f = from_pole as f64 * PI / last as f64;
+            let half_way = PI / (2.0 * last as f64);
+            let g = f + half_way;
+            // hav e = hav(g - f) + sin f sin g hav d
+            let d = (haversine(e) - haversine(half_way)) / (f.sin() * g.sin());
+            if d >= 1.0 { 1 } else { (PI / (2.0 * d.sqrt().asin())).ceil() as i64 }
+        };
+        let mut begins = vec![0];
+        for parallel in 0..=last {
+            begins.push(begins[parallel as usize] + points(parallel));
+        }
+        assert_eq!(begins[parallels as usize], total, "latlong{bits}D");
+        LatLongD { bits, begins }
+    }
+
+    fn last(&self) -> i64 {
+        self.begins.len() as i64 - 2
+    }
+
+    fn count(&self, parallel: i64) -> i64 {
+        self.begins[parallel as usize + 1] - self.begins[parallel as usize]
+    }
+}
+
+impl Representation for LatLongD {
+    /// Only the parallel: how many steps the azimuth has depends on it.
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        [colatitude(v) * self.last() as f64, 0.0, 0.0]
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(self.last())
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        [(0, self.last()), (0, 0), (0, 0)]
+    }
+    fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
+        let (least, greatest) = rounding(self.params(v)[0], self.params_error());
+        let mut all = Vec::new();
+        for parallel in least.max(0)..=greatest.min(self.last()) {
+            let count = self.count(parallel);
+            let (first, last) = rounding(turns(v) * count as f64, steps_error(count));
+            all.extend((first..=last).map(|point| [parallel, point.rem_euclid(count), 0]));
+        }
+        all
+    }
+    fn vector(&self, [parallel, point, _]: Params<i64>) -> [f64; 3] {
+        on_sphere(parallel as f64 / self.last() as f64, point as f64 / self.count(parallel) as f64)
+    }
+    fn pack(&self, [parallel, point, _]: Params<i64>) -> u128 {
+        (self.begins[parallel as usize] + point) as u128
+    }
+    /// Indices beyond the last point read as the south pole.
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let index = unsigned_field(code, 0, self.bits).min(self.begins[self.begins.len() - 1] - 1);
+        let parallel = self.begins.partition_point(|&begin| begin <= index) - 1;
+        [parallel as i64, index - self.begins[parallel], 0]
+    }
+    fn nearby(&self, v: [f64; 3], _: f64) -> Vec<Params<i64>> {
+        let middle = self.params(v)[0].round() as i64;
+        let mut all = Vec::new();
+        for parallel in (middle - 3).max(0)..=(middle + 3).min(self.last()) {
+            let count = self.count(parallel);
+            let point = (turns(v) * count as f64).floor() as i64;
+            all.extend([point, point + 1].map(|p| [parallel, p.rem_euclid(count), 0]));
+        }
+        all
+    }
+}
+
+/// The largest component's axis, of equals the first, and the next two components in turn.
+fn face_of(v: [f64; 3]) -> (usize, [f64; 3]) {
+    let mut axis = 0;
+    for other in 1..3 {
+        if v[other].abs() > v[axis].abs() {
+            axis = other;
+        }
+    }
+    (axis, [v[axis], v[(axis + 1) % 3], v[(axis + 2) % 3]])
+}
+
+/// The vector with `main` on the axis of a face and the other two components in turn.
+fn on_face(face: i64, [a, b]: [f64; 2]) -> [f64; 3] {
+    let axis = face as usize / 2;
+    let mut v = [0.0; 3];
+    v[axis] = if face % 2 == 0 { 1.0 } else { -1.0 };
+    v[(axis + 1) % 3] = a;
+    v[(axis + 2) % 3] = b;
+    normalize(v)
+}
+
+fn face_number(axis: usize, main: f64) -> f64 {
+    (2 * axis + usize::from(main < 0.0)) as f64
+}
+
+/// Two snorm parameters on a face: `[a, b, face]`, face = 2 axis + sign in the low three bits.
+struct Cube {
+    side: Pair,
+    warped: bool,
+}
+
+impl Cube {
+    fn new(bits: u32, warped: bool) -> Self {
+        Cube { side: Pair { bits: (bits - 3) / 2, kind: Kind::Snorm }, warped }
+    }
+}
+
+impl Representation for Cube {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        let (axis, [main, a, b]) = face_of(v);
+        let [a, b] = [a / main.abs(), b / main.abs()]
+            .map(|t| if self.warped { t.atan() / FRAC_PI_4 } else { t })
+            .map(|t| self.side.position(t));
+        [a, b, face_number(axis, main)]
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(self.side.steps())
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        let [a, b, _] = self.side.range();
+        [a, b, (0, 5)]
+    }
+    fn reach(&self) -> Params<i64> {
+        [2, 2, 0]
+    }
+    fn vector(&self, [a, b, face]: Params<i64>) -> [f64; 3] {
+        let place = |p: i64| {
+            let t = self.side.value(p);
+            if self.warped { (t * FRAC_PI_4).tan() } else { t }
+        };
+        on_face(face, [place(a), place(b)])
+    }
+    fn pack(&self, [a, b, face]: Params<i64>) -> u128 {
+        let field = |p: i64| p as u128 & ((1 << self.side.bits) - 1);
+        face as u128 | field(a) << 3 | field(b) << (3 + self.side.bits)
+    }
+    /// Faces 6 and 7 read as 4 and 5.
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let face = unsigned_field(code, 0, 3);
+        let side = |shift| signed_field(code, shift, self.side.bits).max(-self.side.steps());
+        [side(3), side(3 + self.side.bits), if face > 5 { face - 2 } else { face }]
+    }
+    /// A point of an edge is on the face of the first of its axes.
+    fn canonical(&self, [a, b, face]: Params<i64>) -> Params<i64> {
+        let border = self.side.steps();
+        let axis = face as usize / 2;
+        let mut point = [0; 3];
+        point[axis] = if face % 2 == 0 { border } else { -border };
+        point[(axis + 1) % 3] = a;
+        point[(axis + 2) % 3] = b;
+        let first = (0..3).find(|&i| point[i].abs() == border).unwrap();
+        let face = 2 * first as i64 + i64::from(point[first] < 0);
+        [point[(first + 1) % 3], point[(first + 2) % 3], face]
+    }
+}
+
+/// Cells of equal angles on a face: `[i, j, face]`, decoded to their centres.
+struct AngularCube {
+    bits: u32,
+    cells: i64,
+}
+
+impl AngularCube {
+    fn new(bits: u32) -> Self {
+        // floor(sqrt(2^bits / 6)), counted so as not to rely on rounding.
+        let fits = |s: i64| 6 * s * s <= 1 << bits;
+        let near = (2f64.powi(bits as i32) / 6.0).sqrt() as i64;
+        let cells = (near - 1..=near + 1).rev().find(|&s| fits(s)).unwrap();
+        AngularCube { bits, cells }
+    }
+}
+
+impl Representation for AngularCube {
+    /// In cells from the centre of the first, so that rounding finds the cell.
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        let (axis, [main, a, b]) = face_of(v);
+        let [i, j] = [a, b]
+            .map(|t| ((t / main.abs()).atan() / FRAC_PI_4 + 1.0) / 2.0 * self.cells as f64 - 0.5);
+        [i, j, face_number(axis, main)]
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(self.cells)
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        [(0, self.cells - 1), (0, self.cells - 1), (0, 5)]
+    }
+    fn reach(&self) -> Params<i64> {
+        [2, 2, 0]
+    }
+    fn vector(&self, [i, j, face]: Params<i64>) -> [f64; 3] {
+        let place =
+            |i: i64| (FRAC_PI_4 * ((2 * i + 1 - self.cells) as f64 / self.cells as f64)).tan();
+        on_face(face, [place(i), place(j)])
+    }
+    fn pack(&self, [i, j, face]: Params<i64>) -> u128 {
+        ((i * self.cells + j) * 6 + face) as u128
+    }
+    /// Indices beyond the last cell read as the last.
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let index = unsigned_field(code, 0, self.bits).min(6 * self.cells * self.cells - 1);
+        [index / 6 / self.cells, index / 6 % self.cells, index % 6]
+    }
+}
+
+/// Three signs and a point of the octant's triangle: `[i, j, signs]`, x's in the highest bit of
+/// three.
+struct Octant;
+
+const OCTANT: i64 = 126;
+
+impl Octant {
+    /// A zero has no sign.
+    fn is_negative([i, j, signs]: Params<i64>) -> [bool; 3] {
+        let bit = |k: i64| signs >> k & 1 == 1;
+        [bit(2) && i > 0, bit(1) && j > 0, bit(0) && i + j < OCTANT]
+    }
+}
+
+impl Representation for Octant {
+    /// Less a half, so that rounding truncates.
+    fn params(&self, [x, y, z]: [f64; 3]) -> Params<f64> {
+        let w = OCTANT as f64 / (x.abs() + y.abs() + z.abs());
+        let signs = [x, y, z].iter().fold(0.0, |s, &c| 2.0 * s + f64::from(u8::from(c < 0.0)));
+        [x.abs() * w - 0.5, y.abs() * w - 0.5, signs]
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(OCTANT)
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        [(0, OCTANT), (0, OCTANT), (0, 7)]
+    }
+    fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
+        let [i, j, signs] = self.params(v);
+        let ([i, j], signs) = ([i, j].map(|p| rounding(p, self.params_error())), signs as i64);
+        let all = window(self.range(), [i, j, (signs, signs)]);
+        all.into_iter().map(|[i, j, signs]| [i, j.min(OCTANT - i), signs]).collect()
+    }
+    fn vector(&self, [i, j, signs]: Params<i64>) -> [f64; 3] {
+        let magnitudes = [i, j, OCTANT - i - j];
+        let negative = Self::is_negative([i, j, signs]);
+        normalize(std::array::from_fn(|k| {
+            if negative[k] { -magnitudes[k] as f64 } else { magnitudes[k] as f64 }
+        }))
+    }
+    fn pack(&self, [i, j, signs]: Params<i64>) -> u128 {
+        let (i, j) = if i >= 64 { (127 - i, 127 - j) } else { (i, j) };
+        (signs << 13 | i << 7 | j) as u128
+    }
+    /// What would have a third component of -1 reads as the neighbour with i one less.
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let (i, j) = (unsigned_field(code, 7, 6), unsigned_field(code, 0, 7));
+        let (i, j) = if i + j >= 127 { (127 - i, 127 - j) } else { (i, j) };
+        [if i + j > OCTANT { i - 1 } else { i }, j, unsigned_field(code, 13, 3)]
+    }
+    fn canonical(&self, [i, j, signs]: Params<i64>) -> Params<i64> {
+        let negative = Self::is_negative([i, j, signs]);
+        [i, j, negative.iter().fold(0, |s, &negative| 2 * s + i64::from(negative))]
+    }
+}
+
+enum Projection {
+    Stereo,
+    EqArea,
+    EqDist,
+}
+
+#[derive(PartialEq)]
+enum Stretch {
+    Plain,
+    Concentric,
+    Ellipse,
+}
+
+/// A hemisphere on a disk, the disk on a square: `[column, row, lower]` with columns from 0 to
+/// `steps` and rows from -`steps` to `steps`.
+struct Disk {
+    pair: Pair,
+    projection: Projection,
+    stretch: Stretch,
+}
+
+impl Disk {
+    /// How far from the middle of the disk a direction stands, by the cosine and sine of its angle
+    /// from the pole of the hemisphere; in the other hemisphere, beyond 1.
+    fn radius(&self, cos: f64, sin: f64) -> f64 {
+        let angle = sin.atan2(cos);
+        match self.projection {
+            Projection::Stereo => (angle / 2.0).tan(),
+            Projection::EqArea => SQRT_2 * (angle / 2.0).sin(),
+            Projection::EqDist => angle / FRAC_PI_2,
+        }
+    }
+
+    /// The angle from the pole at a radius.
+    fn polar_angle(&self, radius: f64) -> f64 {
+        match self.projection {
+            Projection::Stereo => 2.0 * radius.atan(),
+            Projection::EqArea => 2.0 * (radius / SQRT_2).min(1.0).asin(),
+            Projection::EqDist => radius * FRAC_PI_2,
+        }
+    }
+
+    /// Column and row in the chart of one hemisphere.
+    fn position(&self, [x, y, z]: [f64; 3], lower: bool) -> [f64; 2] {
+        let h = x.hypot(y);
+        let z = if lower { -z } else { z };
+        let r = self.radius(z, h);
+        let (dx, dy) = if h == 0.0 { (1.0, 0.0) } else { (x / h, y / h) };
+        let (disk_x, disk_y) = (r * dx, r * dy);
+        let [u, v] = match self.stretch {
+            Stretch::Plain => [disk_x, disk_y],
+            Stretch::Concentric => {
+                let along = |a: f64, b: f64| r * b.atan2(a.abs()) / FRAC_PI_4;
+                if dx.abs() >= dy.abs() {
+                    [sign(dx) * r, along(dx, dy)]
+                } else {
+                    [along(dy, dx), sign(dy) * r]
+                }
+            }
+            Stretch::Ellipse => {
+                let difference = disk_x * disk_x - disk_y * disk_y;
+                // (2 + X^2 - Y^2)^2 - 8 X^2, by 1 - r^2.
+                let q = (4.0 * (1.0 - r) * (1.0 + r) + difference * difference).max(0.0).sqrt();
+                let place = |c: f64, sum: f64| 2.0 * c / sum.sqrt();
+                [place(disk_x, 2.0 + difference + q), place(disk_y, 2.0 - difference + q)]
+            }
+        };
+        let steps = self.pair.steps() as f64;
+        [(u / 2.0 + 0.5) * steps, v * steps]
+    }
+
+    fn square(&self, [column, row, _]: Params<i64>) -> [f64; 2] {
+        let steps = self.pair.steps();
+        [(2 * column - steps) as f64 / steps as f64, row as f64 / steps as f64]
+    }
+
+    /// Of a plain chart's points past the equator, the same point in the other chart if it is one
+    /// there too.
+    fn own_chart(&self, params: Params<i64>, past: bool) -> Params<i64> {
+        if !past {
+            return params;
+        }
+        let lower = 1 - params[2];
+        let exact = self.position(self.vector(params), lower == 1);
+        let near = exact.map(f64::round);
+        let is_whole = (0..2).all(|i| (exact[i] - near[i]).abs() < 1e-7);
+        if is_whole { [near[0] as i64, near[1] as i64, lower] } else { params }
+    }
+
+    /// The points of a plain chart within an angle of `v`, and some more: those of a sector of a
+    /// ring.
+    fn sector(&self, v: [f64; 3], lower: bool, within: f64) -> Vec<Params<i64>> {
+        let h = v[0].hypot(v[1]);
+        let angle = h.atan2(if lower { -v[2] } else { v[2] });
+        let [near, far] = [(angle - within).max(0.0), (angle + within).min(PI)];
+        let corner = SQRT_2 * 1.000_001;
+        if near > self.polar_angle(corner) {
+            return Vec::new();
+        }
+        let far = far.min(self.polar_angle(corner));
+        let [near, far] = [near, far].map(|a| self.radius(a.cos(), a.sin()));
+        let azimuth = v[1].atan2(v[0]);
+        let spread = if h <= within.sin() { PI } else { (within.sin() / h).asin() };
+        // Least and greatest of r cos(a - b) in the sector.
+        let extent = |b: f64| {
+            let middle = (azimuth - b + 3.0 * PI).rem_euclid(TAU) - PI;
+            let ends = [(middle - spread).cos(), (middle + spread).cos()];
+            let greatest = if middle.abs() <= spread { 1.0 } else { ends[0].max(ends[1]) };
+            let least = if PI - middle.abs() <= spread { -1.0 } else { ends[0].min(ends[1]) };
+            [(near * least).min(far * least), (near * greatest).max(far * greatest)]
+        };
+        let steps = self.pair.steps();
+        let [u, v] = [extent(0.0), extent(FRAC_PI_2)];
+        let column = |u: f64| ((u / 2.0 + 0.5) * steps as f64).clamp(0.0, steps as f64);
+        let row = |v: f64| (v * steps as f64).clamp(-steps as f64, steps as f64);
+        let (bottom, top) = (row(v[0]).floor() as i64, row(v[1]).ceil() as i64);
+        let mut found = Vec::new();
+        for column in column(u[0]).floor() as i64..=column(u[1]).ceil() as i64 {
+            let [u, _] = self.square([column, 0, 0]);
+            if u.abs() > far {
+                continue;
+            }
+            let reach = |r: f64| (r * r - u * u).max(0.0).sqrt() * steps as f64;
+            let (inner, outer) = (reach(near).floor() as i64, reach(far).ceil() as i64);
+            for rows in
+                [(-outer).max(bottom)..=(-inner).min(top), inner.max(bottom)..=outer.min(top)]
+            {
+                let rows = rows.filter(|row| row.abs() <= steps);
+                found.extend(rows.map(|row| [column, row, i64::from(lower)]));
+            }
+        }
+        found
+    }
+}
+
+impl Representation for Disk {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        let lower = v[2] < 0.0;
+        let [column, row] = self.position(v, lower);
+        [column, row, f64::from(u8::from(lower))]
+    }
+    fn params_error(&self) -> f64 {
+        steps_error(self.pair.steps())
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        let steps = self.pair.steps();
+        [(0, steps), (-steps, steps), (0, 1)]
+    }
+    fn reach(&self) -> Params<i64> {
+        [4, 4, 0]
+    }
+    fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
+        let lower = i64::from(v[2] < 0.0);
+        let [column, row] = self.position(v, lower == 1).map(|p| rounding(p, self.params_error()));
+        let hemisphere = if v[2].abs() < 1e-30 { (0, 1) } else { (lower, lower) };
+        let [columns, rows, _] = self.range();
+        let clamp = |(a, b): (i64, i64), range: (i64, i64)| {
+            (a.clamp(range.0, range.1), b.clamp(range.0, range.1))
+        };
+        window(self.range(), [clamp(column, columns), clamp(row, rows), hemisphere])
+    }
+    fn vector(&self, params: Params<i64>) -> [f64; 3] {
+        let [u, v] = self.square(params);
+        let (x, y) = match self.stretch {
+            Stretch::Plain => (u, v),
+            Stretch::Concentric if u.abs() >= v.abs() => {
+                let t = FRAC_PI_4 * v / u;
+                (u * t.cos(), u * t.sin())
+            }
+            Stretch::Concentric => {
+                let t = FRAC_PI_4 * u / v;
+                (v * t.sin(), v * t.cos())
+            }
+            Stretch::Ellipse => (u * (1.0 - v * v / 2.0).sqrt(), v * (1.0 - u * u / 2.0).sqrt()),
+        };
+        let r = x.hypot(y);
+        let (sin, cos) = self.polar_angle(r).sin_cos();
+        let z = if params[2] == 1 { -cos } else { cos };
+        [x / r * sin, y / r * sin, z]
+    }
+    /// Column 0 has no sign of its own: it is the upper hemisphere's.
+    fn pack(&self, [column, row, lower]: Params<i64>) -> u128 {
+        self.pair.pack([if lower == 1 { -column } else { column }, row, 0])
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let [u, row, _] = self.pair.unpack(code);
+        [u.abs(), row, i64::from(u < 0)]
+    }
+    /// The equator is the upper hemisphere's. A direction past it that has a code in the chart of
+    /// its own hemisphere has that. Corners that are the other pole have all signs positive.
+    fn canonical(&self, [column, row, lower]: Params<i64>) -> Params<i64> {
+        let steps = self.pair.steps();
+        let u = 2 * column - steps;
+        let from_equator = match self.stretch {
+            Stretch::Plain => u * u + row * row - steps * steps,
+            _ => u.abs().max(row.abs()) - steps,
+        };
+        let lower = if column == 0 || from_equator == 0 { 0 } else { lower };
+        if matches!((&self.projection, &self.stretch), (Projection::EqArea, Stretch::Plain))
+            && (u.abs(), row.abs()) == (steps, steps)
+        {
+            return [steps, steps, lower];
+        }
+        self.own_chart([column, row, lower], from_equator > 0)
+    }
+    fn nearby(&self, v: [f64; 3], cell: f64) -> Vec<Params<i64>> {
+        let lower = v[2] < 0.0;
+        let at = |v: [f64; 3], lower: bool| {
+            let middle = self.position(v, lower).map(|p| p.round() as i64);
+            let middle = [middle[0], middle[1], i64::from(lower)];
+            window(self.range(), around(middle, self.reach()))
+        };
+        let mut found = at(v, lower);
+        if self.stretch == Stretch::Plain {
+            let within = found.iter().map(|&p| chord_squared(self.vector(p), v));
+            let within = 2.0 * (within.fold(4.0, f64::min).sqrt() / 2.0).asin() + 1e-9;
+            found.extend(self.sector(v, !lower, within));
+        } else if v[2].abs() < 4.0 * cell {
+            found.extend(at([v[0], v[1], 0.0], !lower));
+        }
+        // Column 0 of the lower hemisphere does not exist.
+        found.retain(|&[column, _, lower]| column > 0 || lower == 0);
+        found
+    }
+}
+
+/// All vertices, in the order of their codes.
+struct Icosphere(Vec<[f64; 3]>);
+
+impl Icosphere {
+    fn new() -> Self {
+        let phi = (1.0 + 5f64.sqrt()) / 2.0;
+        let corners = [[1.0, 0.0, phi], [phi, 1.0, 0.0], [0.0, phi, 1.0], [-1.0, 0.0, phi]];
+        let point = |corners: [[f64; 3]; 4], weights: [i32; 4]| -> [f64; 3] {
+            let component = |i: usize| {
+                corners.iter().zip(weights).map(|(c, weight)| c[i] * f64::from(weight)).sum()
+            };
+            normalize([0, 1, 2].map(component))
+        };
+        let numbered = [
+            [3, 1, 0, 0],
+            [3, 0, 1, 0],
+            [2, 2, 0, 0],
+            [2, 1, 1, 0],
+            [2, 0, 1, 1],
+            [4, 0, 0, 0],
+            [3, 0, 0, 1],
+            [1, 0, 2, 1],
+            [2, 0, 0, 2],
+        ];
+        let mut all = Vec::new();
+        for weights in numbered {
+            let mut v = point(corners, weights);
+            for _ in 0..3 {
+                // Each sign in turn, that of x fastest, of components that have one.
+                for signs in 0..8 {
+                    let image: [f64; 3] =
+                        std::array::from_fn(|i| if signs >> i & 1 == 1 { -v[i] } else { v[i] });
+                    if (0..3).all(|i| v[i] > 1e-9 || signs >> i & 1 == 0) {
+                        all.push(image);
+                    }
+                }
+                v.rotate_right(1);
+            }
+        }
+        // The same set from the faces of the solid: every triple of corners an edge apart.
+        let solid: Vec<[f64; 3]> = (0..12)
+            .map(|i: usize| {
+                let [a, b] = [i % 2, i / 2 % 2].map(|minus| 1.0 - 2.0 * minus as f64);
+                let mut v = [a, 0.0, b * phi];
+                v.rotate_right(i / 4);
+                v
+            })
+            .collect();
+        let edge = |i: usize, j: usize| (chord_squared(solid[i], solid[j]) - 4.0).abs() < 1e-9;
+        for i in 0..12 {
+            for j in (0..i).filter(|&j| edge(i, j)) {
+                for k in (0..j).filter(|&k| edge(i, k) && edge(j, k)) {
+                    for (a, b) in (0..=4).flat_map(|a| (0..=4 - a).map(move |b| (a, b))) {
+                        let face = [solid[i], solid[j], solid[k], [0.0; 3]];
+                        let v = point(face, [a, b, 4 - a - b, 0]);
+                        let same = all.iter().filter(|w| chord_squared(v, **w) < 1e-18).count();
+                        assert_eq!(same, 1, "{v:?}");
+                    }
+                }
+            }
+        }
+        assert_eq!(all.len(), 162);
+        Icosphere(all)
+    }
+
+    fn nearest(&self, v: [f64; 3]) -> (usize, f64) {
+        let distances = self.0.iter().map(|w| chord_squared(v, *w)).enumerate();
+        distances.min_by(|a, b| a.1.total_cmp(&b.1)).unwrap()
+    }
+}
+
+impl Representation for Icosphere {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        [self.nearest(v).0 as f64, 0.0, 0.0]
+    }
+    fn params_error(&self) -> f64 {
+        0.0
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        [(0, 161), (0, 0), (0, 0)]
+    }
+    fn vector(&self, [index, _, _]: Params<i64>) -> [f64; 3] {
+        self.0[index as usize]
+    }
+    fn pack(&self, [index, _, _]: Params<i64>) -> u128 {
+        index as u128
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        [unsigned_field(code, 0, 8).min(161), 0, 0]
+    }
+    fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
+        let (_, least) = self.nearest(v);
+        let close = |&i: &i64| chord_squared(v, self.0[i as usize]) < least + 1e-6;
+        (0..162).filter(close).map(|i| [i, 0, 0]).collect()
+    }
+    fn nearby(&self, _: [f64; 3], _: f64) -> Vec<Params<i64>> {
+        (0..162).map(|i| [i, 0, 0]).collect()
     }
 }

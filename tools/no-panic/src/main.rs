@@ -15,7 +15,10 @@ use core::panic::PanicInfo;
 use bytemuck::Zeroable;
 use unitpack::packing::*;
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
-use unitpack::{CodeInt, Codec, Float32x3, Format, Oct16, Soa, SoaMut, Visitor, transcode};
+
+use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable, SignSymmetric};
+use unitpack::low_dimensions::{Angle, Sign};
+use unitpack::*;
 
 const LEN: usize = 67;
 
@@ -107,6 +110,84 @@ fn dense<const BITS: u32, C: CodeInt>() {
     black_box(unpack_dense::<BITS, C>(bytes, codes).is_ok());
 }
 
+fn table_of_format(format: Format) {
+    let mut vectors = [[0.5; 3]; 1 << 16];
+    let len = FormatTable::len_for(format).unwrap_or(0);
+    if let Some(vectors) = opaque(&mut vectors).get_mut(..len)
+        && let Ok(table) = FormatTable::fill(format, vectors)
+    {
+        let table = black_box(table);
+        black_box((table.format(), table.decode(black_box(5))));
+        let mut buffers = Buffers::new();
+        black_box(table.decode_bytes(opaque(&mut [0; 12 * LEN]), buffers.write()).is_ok());
+    }
+}
+
+fn table_of_codec<C: Codec, const ENTRIES: usize>() {
+    if let Ok(table) = DecodeTable::<C>::fill(opaque(&mut [[0.5; 3]; ENTRIES])) {
+        let table = black_box(table);
+        black_box(table.decode(black_box(C::Code::zeroed())));
+        let mut buffers = Buffers::new();
+        let mut codes = [C::Code::zeroed(); LEN];
+        let codes = opaque(&mut codes);
+        black_box(table.decode_soa(codes, buffers.write()).is_ok());
+        black_box(table.decode_aos(codes, opaque(&mut [[0.5; 4]; LEN])).is_ok());
+    }
+}
+
+fn table_of_octant<C: SignSymmetric>() {
+    let mut vectors = [[0.5; 3]; 1 << 14];
+    if let Some(vectors) = opaque(&mut vectors).get_mut(..OctantTable::<C>::LEN)
+        && let Ok(table) = OctantTable::<C>::fill(vectors)
+    {
+        let table = black_box(table);
+        black_box(table.decode(black_box(C::Code::zeroed())));
+        let mut buffers = Buffers::new();
+        let mut codes = [C::Code::zeroed(); LEN];
+        let codes = opaque(&mut codes);
+        black_box(table.decode_soa(codes, buffers.write()).is_ok());
+        black_box(table.decode_aos(codes, opaque(&mut [[0.5; 4]; LEN])).is_ok());
+    }
+}
+
+fn decode_tables() {
+    table_of_codec::<Oct8, 256>();
+    table_of_codec::<Oct16, 65_536>();
+    // One of each formula.
+    table_of_octant::<Oct8>();
+    table_of_octant::<Oct16>();
+    table_of_octant::<Octant16>();
+    table_of_octant::<Snorm5x3>();
+    table_of_octant::<HemiOct16>();
+    table_of_octant::<XyOnly16>();
+    table_of_octant::<EqDistEllipse16>();
+    table_of_octant::<WarpedCube16>();
+    table_of_octant::<AngularCube8>();
+    table_of_octant::<AngularCube16>();
+}
+
+fn angles<const BITS: u32, T: CodeInt + Default>() {
+    black_box(Angle::<BITS>::encode(black_box([0.6, 0.8])));
+    black_box(Angle::<BITS>::decode(black_box(0)));
+    let mut buffers = Buffers::new();
+    let mut codes = [T::default(); LEN];
+    let codes = opaque(&mut codes);
+    let SoaMut { x, y, .. } = buffers.write();
+    black_box(Angle::<BITS>::encode_soa(x, y, codes).is_ok());
+    black_box(Angle::<BITS>::decode_soa(codes, x, y).is_ok());
+}
+
+fn low_dimensions() {
+    angles::<1, u8>();
+    angles::<8, u16>();
+    angles::<24, u32>();
+    black_box(Sign::decode(Sign::encode(black_box(0.5))));
+    let (mut x, mut bytes) = ([0.5; LEN], [0; LEN / 8 + 1]);
+    let (x, bytes) = (opaque(&mut x), opaque(&mut bytes));
+    black_box(Sign::encode_slice(x, bytes).is_ok());
+    black_box(Sign::decode_slice(bytes, x).is_ok());
+}
+
 struct Buffers([[f32; LEN]; 3]);
 
 impl Buffers {
@@ -135,6 +216,7 @@ extern "C" fn main() -> i32 {
         format.visit(Everything);
         black_box((format.name(), format.bits(), format.code_size(), format.is_hemisphere()));
         black_box((format.max_error_degrees(), format.max_error_precise_degrees()));
+        table_of_format(*format);
     }
     scalars::<2, 22>();
     scalars::<8, 24>();
@@ -143,6 +225,8 @@ extern "C" fn main() -> i32 {
     dense::<12, u16>();
     dense::<22, u32>();
     dense::<32, u32>();
+    decode_tables();
+    low_dimensions();
     black_box(black_box("oct16").parse::<Format>().is_ok());
     #[cfg(feature = "control")]
     black_box(black_box(Format::ALL)[black_box(0)]);

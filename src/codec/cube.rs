@@ -1,0 +1,363 @@
+//! Cube maps: the face of the largest component, and the two others over it.
+//!
+//! ```text
+//! cube         a, b = next / |axis|, next but one / |axis|
+//! warpedcube   a, b = (4 / pi) atan of the two
+//!              code = face in 3 bits (2 axis + sign), snorm(a), snorm(b) of floor((BITS - 3) / 2) bits each
+//! angularcube  s = floor(sqrt(2^BITS / 6)) cells along an edge;  i = floor((a + 1) s / 2) with the warped a, and j
+//!              index = (i s + j) 6 + face, faces in the order +X, -X, +Y, -Y, +Z, -Z;  decoded to the cell's centre
+//! ```
+//!
+//! Canonical: a point of an edge belongs to the face of the first of its axes, X before Y before Z.
+//! Faces 6 and 7 read as 4 and 5; indices beyond the last cell as the last. All six axes survive
+//! exactly, but in angularcube only if s is odd.
+//!
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014; angularcube: Schinko, Ullrich and Fellner, "Simple and Efficient Normal Encoding with
+//! Error Bounds", 2011.
+
+use core::marker::PhantomData;
+
+use crate::formula::{Formula, One, Symmetric, closest_of_four};
+use crate::lane::{Each, Lane, LaneInt};
+use crate::layout::snorm_max;
+use crate::math::{atan2_half_turns, normalize, sin_cos_half_turns};
+
+/// A cube map with spacing `W` in `BITS` bits.
+pub(crate) struct Cube<W, const BITS: u32>(PhantomData<W>);
+
+/// Schinko's cube map in `BITS` bits.
+pub(crate) struct AngularCube<const BITS: u32>;
+
+/// How a face is divided.
+pub(crate) trait Spacing: 'static {
+    /// The parameter of `side / axis`, from -1 to 1, with axis > 0.
+    fn param<L: Lane>(side: L, axis: L) -> L;
+    /// The direction of the parameters of three components, one of them 1 or -1.
+    fn direction<L: Lane>(params: [L; 3]) -> [L; 3];
+}
+
+/// Even steps on the face.
+pub(crate) struct Flat;
+/// Even steps of the angle.
+pub(crate) struct Warped;
+
+impl Spacing for Flat {
+    #[inline(always)]
+    fn param<L: Lane>(side: L, axis: L) -> L {
+        side / axis
+    }
+    #[inline(always)]
+    fn direction<L: Lane>(params: [L; 3]) -> [L; 3] {
+        params
+    }
+}
+
+impl Spacing for Warped {
+    #[inline(always)]
+    fn param<L: Lane>(side: L, axis: L) -> L {
+        atan2_half_turns(side, axis) * L::splat(4.0)
+    }
+    #[inline(always)]
+    fn direction<L: Lane>(params: [L; 3]) -> [L; 3] {
+        params.each(|p| {
+            let (sin, cos) = sin_cos_half_turns(p * L::splat(0.25));
+            let end = L::splat(1.0).le(p.abs());
+            L::select(end, p, sin / cos)
+        })
+    }
+}
+
+/// Which axis is first.
+#[inline(always)]
+fn turn_to_axis<T: Copy>([x, y, z]: [T; 3], axis: u32) -> [T; 3] {
+    match axis {
+        0 => [x, y, z],
+        1 => [y, z, x],
+        _ => [z, x, y],
+    }
+}
+
+/// A vector turned so that its largest component, X before Y before Z, comes first; and which one
+/// that is.
+#[inline(always)]
+fn largest_first<L: Lane>(v: [L; 3]) -> ([L; 3], L::Int) {
+    let [x, y, z] = v.each(|c| c.abs());
+    let is_x = y.le(x) & z.le(x);
+    let is_y = !is_x & z.le(y);
+    let [a, b, c] = [0, 1, 2].each(|axis| turn_to_axis(v, axis));
+    let turned = [0, 1, 2].each(|i: usize| L::select(is_x, a[i], L::select(is_y, b[i], c[i])));
+    let axis = L::Int::select(
+        is_x,
+        L::Int::splat(0),
+        L::Int::select(is_y, L::Int::splat(1), L::Int::splat(2)),
+    );
+    (turned, axis)
+}
+
+/// Back from the turn of [`largest_first`].
+#[inline(always)]
+fn turn_back<T: Copy>(v: [T; 3], select: impl Fn(T, T, T) -> T) -> [T; 3] {
+    let [x, y, z] = [turn_to_axis(v, 0), turn_to_axis(v, 2), turn_to_axis(v, 1)];
+    [0, 1, 2].each(|i: usize| select(x[i], y[i], z[i]))
+}
+
+/// Picks by the axis.
+#[inline(always)]
+fn by_axis<L: Lane>(axis: L::Int) -> impl Fn(L::Int, L::Int, L::Int) -> L::Int {
+    let is_x = axis.eq(L::Int::splat(0));
+    let is_y = axis.eq(L::Int::splat(1));
+    move |x, y, z| L::Int::select(is_x, x, L::Int::select(is_y, y, z))
+}
+
+impl<W: Spacing, const BITS: u32> Cube<W, BITS> {
+    const SIDE: u32 = (BITS - 3) / 2;
+    const M: i32 = snorm_max(Self::SIDE);
+
+    /// The canonical code of a point of the cube from -M to M.
+    #[inline(always)]
+    fn pack<L: Lane>(point: [L::Int; 3]) -> L::Int {
+        let max = L::Int::splat(Self::M);
+        let [x, y, _] = point.each(|c| c.abs().eq(max));
+        let axis = L::Int::select(
+            x,
+            L::Int::splat(0),
+            L::Int::select(y, L::Int::splat(1), L::Int::splat(2)),
+        );
+        let pick = by_axis::<L>(axis);
+        let turned = [0, 1, 2].each(|axis| turn_to_axis(point, axis));
+        let [main, a, b] =
+            [0, 1, 2].each(|i: usize| pick(turned[0][i], turned[1][i], turned[2][i]));
+        (axis + axis)
+            | main.shr(31)
+            | a.low(Self::SIDE).shl(3)
+            | b.low(Self::SIDE).shl(3 + Self::SIDE)
+    }
+
+    /// The largest component, which is M or -M, and the two others; and its axis.
+    #[inline(always)]
+    fn unpack<L: Lane>(code: L::Int) -> ([L::Int; 3], L::Int) {
+        let max = L::Int::splat(Self::M);
+        let negative = code.low(1).eq(L::Int::splat(1));
+        let axis = code.shr(1).low(2).min(L::Int::splat(2));
+        let side = |shift: u32| code.shr(shift).sign_extend(Self::SIDE).max(-max);
+        ([L::Int::select(negative, -max, max), side(3), side(3 + Self::SIDE)], axis)
+    }
+
+    #[inline(always)]
+    fn vector<L: Lane>(point: [L::Int; 3]) -> [L; 3] {
+        let params = point.each(|i| L::from_int(i) * L::splat(1.0 / Self::M as f32));
+        normalize(W::direction(params))
+    }
+
+    /// The parameters of the two smaller components, scaled to M; the axis of the largest, and its
+    /// place, M or -M.
+    #[inline(always)]
+    fn params<L: Lane>(v: [L; 3]) -> ([L; 2], L::Int, L::Int) {
+        let ([main, a, b], axis) = largest_first(v);
+        let max = L::Int::splat(Self::M);
+        let end = L::Int::select(main.lt(L::zero()), -max, max);
+        let scale = L::splat(Self::M as f32);
+        ([a, b].each(|side| W::param(side, main.abs()) * scale), axis, end)
+    }
+
+    /// A point of the cube from -M to M.
+    #[inline(always)]
+    fn point<L: Lane>(axis: L::Int, end: L::Int, sides: [L::Int; 2]) -> [L::Int; 3] {
+        let max = L::Int::splat(Self::M);
+        let [a, b] = sides.each(|p| p.max(-max).min(max));
+        turn_back([end, a, b], by_axis::<L>(axis))
+    }
+}
+
+impl<W: Spacing, const BITS: u32> Formula for Cube<W, BITS> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        let (params, axis, end) = Self::params(v);
+        Self::pack::<L>(Self::point::<L>(axis, end, params.each(|p| p.round_int())))
+    }
+
+    #[inline(never)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        let (params, axis, end) = Self::params(v);
+        closest_of_four(v, params, |sides| {
+            let point = Self::point::<L>(axis, end, sides);
+            (Self::pack::<L>(point), Self::vector::<L>(point))
+        })
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let (point, axis) = Self::unpack::<L>(code);
+        Self::vector::<L>(turn_back(point, by_axis::<L>(axis)))
+    }
+}
+
+impl<W: Spacing, const BITS: u32> Symmetric for Cube<W, BITS> {
+    const ENTRIES: usize = 3 << (2 * (Self::SIDE - 1));
+
+    #[inline(always)]
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        let (point, axis) = Self::unpack::<L>(code);
+        let [_, a, b] = point.each(|i| i.abs());
+        let index = a | b.shl(Self::SIDE - 1) | axis.shl(2 * (Self::SIDE - 1));
+        let point = turn_back(point, by_axis::<L>(axis));
+        (index, point.each(|i| i.lt(L::Int::splat(0))))
+    }
+}
+
+impl<const BITS: u32> AngularCube<BITS> {
+    const CELLS: Cells = Cells { side: ((1u64 << BITS) / 6).isqrt() as i32 };
+}
+
+/// The cells of a cube with `side` of them along an edge. It is no constant, so that all sizes share
+/// their code.
+#[derive(Clone, Copy)]
+struct Cells {
+    side: i32,
+}
+
+impl Cells {
+    #[inline(always)]
+    fn pack<L: Lane>(self, [i, j]: [L::Int; 2], face: L::Int) -> L::Int {
+        (i * L::Int::splat(self.side) + j) * L::Int::splat(6) + face
+    }
+
+    #[inline(always)]
+    fn vector<L: Lane>(self, cell: [L::Int; 2], face: L::Int) -> [L; 3] {
+        let s = L::Int::splat(self.side);
+        let scale = L::splat(0.25 / self.side as f32);
+        let [a, b] = cell.each(|i| {
+            // A quarter of (2 i + 1) / s - 1, in half turns.
+            let odd = i + i + L::Int::splat(1) - s;
+            let (sin, cos) = sin_cos_half_turns(L::from_int(odd) * scale);
+            sin / cos
+        });
+        let negative = face.low(1).eq(L::Int::splat(1));
+        let main = L::select(negative, L::splat(-1.0), L::splat(1.0));
+        let axis = face.shr(1);
+        let (is_x, is_y) = (axis.eq(L::Int::splat(0)), axis.eq(L::Int::splat(1)));
+        let v = turn_back([main, a, b], |x, y, z| L::select(is_x, x, L::select(is_y, y, z)));
+        normalize(v)
+    }
+
+    /// The cell's coordinates, of which the integers are the centres; and the face.
+    #[inline(always)]
+    fn params<L: Lane>(self, v: [L; 3]) -> ([L; 2], L::Int) {
+        let ([main, a, b], axis) = largest_first(v);
+        let half = L::splat(0.5 * self.side as f32);
+        let params =
+            [a, b].each(|side| Warped::param(side, main.abs()) * half + (half - L::splat(0.5)));
+        let sign = L::Int::select(main.lt(L::zero()), L::Int::splat(1), L::Int::splat(0));
+        (params, axis + axis + sign)
+    }
+
+    #[inline(always)]
+    fn clamp<L: Lane>(self, cell: [L::Int; 2]) -> [L::Int; 2] {
+        cell.each(|i| i.max(L::Int::splat(0)).min(L::Int::splat(self.side - 1)))
+    }
+
+    #[inline(never)]
+    fn encode<L: Lane>(self, v: [L; 3]) -> L::Int {
+        let (params, face) = self.params(v);
+        self.pack::<L>(self.clamp::<L>(params.each(|p| p.round_int())), face)
+    }
+
+    #[inline(never)]
+    fn encode_precise<L: Lane>(self, v: [L; 3]) -> L::Int {
+        let (params, face) = self.params(v);
+        closest_of_four(v, params, |cell| {
+            let cell = self.clamp::<L>(cell);
+            (self.pack::<L>(cell, face), self.vector::<L>(cell, face))
+        })
+    }
+
+    /// The cell of a code, and its face.
+    #[inline(always)]
+    fn unpack<L: Lane>(self, code: L::Int) -> ([L::Int; 2], L::Int) {
+        let (cell, face) = div_rem::<L, 6>(code);
+        // Quotient below 2^15, to within one.
+        let s = L::Int::splat(self.side);
+        let i = (L::from_int(cell) * L::splat(1.0 / self.side as f32)).floor().round_int();
+        let j = cell - i * s;
+        let (early, late) = (j.lt(L::Int::splat(0)), !j.lt(s));
+        let one = L::Int::splat(1);
+        let i = L::Int::select(early, i - one, L::Int::select(late, i + one, i));
+        let j = L::Int::select(early, j + s, L::Int::select(late, j - s, j));
+        let beyond = !i.lt(s);
+        let last = L::Int::splat(self.side - 1);
+        let cell = [L::Int::select(beyond, last, i), L::Int::select(beyond, last, j)];
+        (cell, L::Int::select(beyond, L::Int::splat(5), face))
+    }
+
+    #[inline(never)]
+    fn decode<L: Lane>(self, code: L::Int) -> [L; 3] {
+        let (cell, face) = self.unpack::<L>(code);
+        self.vector::<L>(cell, face)
+    }
+
+    /// Cells from the middle of an edge to its end.
+    const fn half_side(self) -> i32 {
+        (self.side + 1) / 2
+    }
+
+    #[inline(never)]
+    fn fold<L: Lane>(self, code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        let zero = L::Int::splat(0);
+        let (cell, face) = self.unpack::<L>(code);
+        let axis = face.shr(1);
+        let [a, b] = cell.each(|i| i + i + L::Int::splat(1 - self.side));
+        let half = L::Int::splat(self.half_side());
+        let index = (axis * half + a.abs().shr(1)) * half + b.abs().shr(1);
+        let point = turn_back([-face.low(1), a, b], by_axis::<L>(axis));
+        (index, point.each(|i| i.lt(zero)))
+    }
+}
+
+impl<const BITS: u32> Formula for AngularCube<BITS> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        Self::CELLS.encode(v)
+    }
+
+    #[inline(always)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        Self::CELLS.encode_precise(v)
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        Self::CELLS.decode(code.low(BITS))
+    }
+}
+
+impl<const BITS: u32> Symmetric for AngularCube<BITS> {
+    const ENTRIES: usize = {
+        let half = Self::CELLS.half_side() as usize;
+        3 * half * half
+    };
+
+    #[inline(always)]
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        Self::CELLS.fold::<L>(code.low(BITS))
+    }
+}
+
+/// Quotient and remainder of an unsigned integer by a small `D`, at most 32: by halves, each exact
+/// in f32.
+#[inline(always)]
+fn div_rem<L: Lane, const D: i32>(n: L::Int) -> (L::Int, L::Int) {
+    let d = L::Int::splat(D);
+    // floor((n + 1/2) / D) is never within rounding of an integer.
+    let divide = |n: L::Int| {
+        ((L::from_int(n) + L::splat(0.5)) * L::splat(1.0 / D as f32)).floor().round_int()
+    };
+    let high = divide(n.shr(16));
+    let rest = (n.shr(16) - high * d).shl(16) + n.low(16);
+    let low = divide(rest);
+    (high.shl(16) + low, rest - low * d)
+}

@@ -1,0 +1,465 @@
+//! Disk projections: each hemisphere projected onto the unit disk, the disk stretched to a square,
+//! the hemisphere's sign packed into one parameter.
+//!
+//! ```text
+//! project    (X, Y) = k (x, y)     stereo   k = 1 / (1 + |z|)
+//!                                  eqarea   k = 1 / sqrt(1 + |z|)
+//!                                  eqdist   k = 2 acos|z| / (pi sqrt(1 - z^2))
+//! stretch    plain       (u, v) = (X, Y)
+//!            concentric  r = |(X, Y)|;  u = sgn(X) r, v = r (4 / pi) atan2(Y, |X|)  where |X| >= |Y|, else swapped
+//!            ellipse     X = u sqrt(1 - v^2 / 2), Y = v sqrt(1 - u^2 / 2)
+//! pack       U = sgn(z) (u / 2 + 1 / 2);  code = snorm(U), snorm(v)
+//! ```
+//!
+//! So |U| M, from 0 to M = 2^(BITS/2 - 1) - 1, counts the columns of one hemisphere and v has twice
+//! as many rows. Plain uses the disk alone; its codes outside decode past the equator, and the
+//! precise encoder uses them.
+//!
+//! Between projection and stretch stand (X, Y), D = 1 - X^2 - Y^2 and E = 2 - X^2 - Y^2, each known to
+//! full precision where it is small: D near the rim, E near the square's corners, which are eqarea's
+//! other pole. With D the ellipse's inverse is well conditioned at the corners of the square:
+//!
+//! ```text
+//! q^2 = (2 + X^2 - Y^2)^2 - 8 X^2 = 4 D + (X^2 - Y^2)^2;  u = 2 X / sqrt(2 + X^2 - Y^2 + q), v = 2 Y / sqrt(2 - X^2 + Y^2 + q)
+//! ```
+//!
+//! Canonical: a point of the equator belongs to the upper hemisphere; one that stands in both
+//! squares, as eight do in plain eqdist20 and 24, to its own; a pole in a corner of plain eqarea is
+//! the one with u > 0 and v > 0. Of the axes, +-X survive exactly, and +-Z where they are a corner.
+//!
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014; concentric: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997;
+//! ellipse: Nowell, "Mapping a Square to a Circle", 2005.
+
+use core::marker::PhantomData;
+
+use crate::formula::{Closest, Formula, One, Symmetric};
+use crate::lane::{Each, Lane, LaneInt, LaneMask};
+use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
+use crate::math::{
+    atan2_half_turns, chord_squared, inv_sqrt, length_squared, normalize, sin_cos_half_turns, sqrt,
+};
+
+/// A disk projection `P`, stretched by `S`, in `BITS` bits.
+pub(crate) struct Disk<P, S, const BITS: u32>(PhantomData<(P, S)>);
+
+/// A point of the disk or, past the equator, outside it.
+#[derive(Clone, Copy)]
+pub(crate) struct OnDisk<L> {
+    x: L,
+    y: L,
+    /// 1 - x^2 - y^2.
+    d: L,
+    /// 2 - x^2 - y^2.
+    e: L,
+}
+
+/// From a hemisphere, whose pole is z = 1, to the unit disk.
+pub(crate) trait Projection: 'static {
+    /// Of a unit vector with z >= 0 or, if it is to be seen `past` the equator, z <= 0.
+    fn to_disk<L: Lane>(v: [L; 3], past: bool) -> OnDisk<L>;
+    /// x^2 + y^2 may be up to 2.
+    fn from_disk<L: Lane>(point: OnDisk<L>) -> [L; 3];
+    /// Whether (u, v) / m, outside the disk, stands for the same direction as a point inside that of
+    /// the other hemisphere.
+    #[inline(always)]
+    fn is_double<L: Lane>([u, _]: [L::Int; 2], _m: i32) -> L::Mask {
+        u.lt(u)
+    }
+}
+
+/// From the unit disk to the square from -1 to 1.
+pub(crate) trait Stretch: 'static {
+    /// Whether the disk stays a disk, so that the square has corners outside.
+    const CORNERS: bool;
+    /// How many columns and rows beside the two nearest ones the nearest code may be off.
+    const REACH: [i32; 2];
+
+    fn to_square<L: Lane>(point: OnDisk<L>) -> [L; 2];
+    /// Of integers from -m to m. Exact where d or e is zero.
+    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L>;
+}
+
+#[inline(always)]
+fn scaled<L: Lane>(square: [L::Int; 2], m: i32) -> [L; 2] {
+    square.each(|i| L::from_int(i) * L::splat(1.0 / m as f32))
+}
+
+/// 1 - (i / m)^2, exact where it is zero.
+#[inline(always)]
+fn one_minus_square<L: Lane>(i: L::Int, m: i32) -> L {
+    let (max, scale) = (L::Int::splat(m), L::splat(1.0 / m as f32));
+    (L::from_int(max - i) * scale) * (L::from_int(max + i) * scale)
+}
+
+/// 1 + z of a unit vector; past the equator without cancellation, and at least 1e-30.
+#[inline(always)]
+fn one_plus_z<L: Lane>([x, y, z]: [L; 3], past: bool) -> L {
+    let one = L::splat(1.0);
+    if past { (x * x + y * y).greater(L::splat(1e-30)) / (one - z) } else { one + z }
+}
+
+/// Stereographic.
+pub(crate) struct Stereo;
+
+impl Projection for Stereo {
+    #[inline(always)]
+    fn to_disk<L: Lane>([x, y, z]: [L; 3], past: bool) -> OnDisk<L> {
+        let k = L::splat(1.0) / one_plus_z([x, y, z], past);
+        let d = (z + z) * k;
+        OnDisk { x: x * k, y: y * k, d, e: L::splat(1.0) + d }
+    }
+    #[inline(always)]
+    fn from_disk<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 3] {
+        normalize([x + x, y + y, d])
+    }
+}
+
+/// Lambert's azimuthal equal-area.
+pub(crate) struct EqArea;
+
+impl Projection for EqArea {
+    #[inline(always)]
+    fn to_disk<L: Lane>([x, y, z]: [L; 3], past: bool) -> OnDisk<L> {
+        let e = one_plus_z([x, y, z], past);
+        let k = inv_sqrt(e);
+        OnDisk { x: x * k, y: y * k, d: z, e }
+    }
+    #[inline(always)]
+    fn from_disk<L: Lane>(OnDisk { x, y, d, e }: OnDisk<L>) -> [L; 3] {
+        let k = sqrt(e);
+        normalize([x * k, y * k, d])
+    }
+}
+
+/// Azimuthal equidistant.
+pub(crate) struct EqDist;
+
+impl Projection for EqDist {
+    #[inline(always)]
+    fn to_disk<L: Lane>([x, y, z]: [L; 3], _: bool) -> OnDisk<L> {
+        let hh = (x * x + y * y).greater(L::splat(1e-30));
+        let per_h = inv_sqrt(hh);
+        let h = hh * per_h;
+        let r = atan2_half_turns(h, z);
+        // 1 - r, from the equator's side: there it is small.
+        let short = atan2_half_turns(z, h);
+        let (r, short) = (r + r, short + short);
+        let k = r * per_h;
+        let d = short * (L::splat(1.0) + r);
+        OnDisk { x: x * k, y: y * k, d, e: L::splat(1.0) + d }
+    }
+    #[inline(always)]
+    fn from_disk<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 3] {
+        let rr = (x * x + y * y).greater(L::splat(1e-30));
+        let per_r = inv_sqrt(rr);
+        // The angle above the equator is 1 - r quarter turns, and 1 - r = d / (1 + r).
+        let short = d / (L::splat(1.0) + rr * per_r);
+        let (sin, cos) = sin_cos_half_turns(short * L::splat(0.5));
+        let k = cos * per_r;
+        [x * k, y * k, sin]
+    }
+    /// (u, v) at the distance r is the direction of (2 m - r) / r times (u, v): an integer point if r
+    /// is an integer and divides the product.
+    #[inline(always)]
+    fn is_double<L: Lane>(outer: [L::Int; 2], m: i32) -> L::Mask {
+        let [u, v] = outer;
+        let rr = u * u + v * v;
+        let r = sqrt(L::from_int(rr)).round_int();
+        let ratio = L::from_int(L::Int::splat(2 * m) - r) / L::from_int(r.max(L::Int::splat(1)));
+        let inner = outer.each(|c| {
+            let inner = (L::from_int(c) * ratio).round_int();
+            (inner, (inner * r).eq(c * (L::Int::splat(2 * m) - r)))
+        });
+        // A column's u is as odd as m.
+        let column = (inner[0].0 - L::Int::splat(m)).low(1).eq(L::Int::splat(0));
+        (r * r).eq(rr) & L::Int::splat(m).lt(r) & inner[0].1 & inner[1].1 & column
+    }
+}
+
+/// No stretch.
+pub(crate) struct Plain;
+
+impl Stretch for Plain {
+    const CORNERS: bool = true;
+    const REACH: [i32; 2] = [1, 2];
+
+    #[inline(always)]
+    fn to_square<L: Lane>(OnDisk { x, y, .. }: OnDisk<L>) -> [L; 2] {
+        [x, y]
+    }
+    #[inline(always)]
+    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
+        let [u, v] = square;
+        let mm = L::Int::splat(m) * L::Int::splat(m);
+        let scale = L::splat((1.0 / (m as f64 * m as f64)) as f32);
+        let [x, y] = scaled::<L>(square, m);
+        let d = mm - u * u - v * v;
+        OnDisk { x, y, d: L::from_int(d) * scale, e: L::from_int(d + mm) * scale }
+    }
+}
+
+/// Circles to squares.
+pub(crate) struct Concentric;
+
+impl Stretch for Concentric {
+    const CORNERS: bool = false;
+    const REACH: [i32; 2] = [1, 2];
+
+    #[inline(always)]
+    fn to_square<L: Lane>(OnDisk { x, y, .. }: OnDisk<L>) -> [L; 2] {
+        let steep = x.abs().lt(y.abs());
+        let (long, short) = (L::select(steep, y, x), L::select(steep, x, y));
+        let r = sqrt((x * x + y * y).greater(L::splat(1e-30)));
+        let along = r * L::splat(4.0) * atan2_half_turns(short, long.abs());
+        let out = r.negate_where_negative(long);
+        [L::select(steep, along, out), L::select(steep, out, along)]
+    }
+    #[inline(always)]
+    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
+        let [u, v] = scaled::<L>(square, m);
+        let steep = u.abs().lt(v.abs());
+        let (out, along) = (L::select(steep, v, u), L::select(steep, u, v));
+        let (sin, cos) = sin_cos_half_turns(L::splat(0.25) * along / out);
+        let (long, short) = (out * cos, out * sin);
+        let d = one_minus_square::<L>(square[0].abs().max(square[1].abs()), m);
+        OnDisk {
+            x: L::select(steep, short, long),
+            y: L::select(steep, long, short),
+            d,
+            e: L::splat(1.0) + d,
+        }
+    }
+}
+
+/// Nowell's ellipses.
+pub(crate) struct Ellipse;
+
+impl Stretch for Ellipse {
+    const CORNERS: bool = false;
+    // Towards the corners cells are sheared without limit.
+    const REACH: [i32; 2] = [3, 4];
+
+    #[inline(always)]
+    fn to_square<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 2] {
+        let skew = (x - y) * (x + y);
+        let q = sqrt((skew * skew + d * L::splat(4.0)).greater(L::zero()));
+        let side = |c: L, sum: L| (c + c) * inv_sqrt(sum);
+        [side(x, L::splat(2.0) + skew + q), side(y, L::splat(2.0) - skew + q)]
+    }
+    #[inline(always)]
+    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
+        let half = L::splat(0.5);
+        let [du, dv] = square.each(|i| one_minus_square::<L>(i, m));
+        let [u, v] = scaled::<L>(square, m);
+        // 1 - v^2 / 2 = (1 + (1 - v^2)) / 2.
+        let side = |c: L, other: L| c * sqrt((L::splat(1.0) + other) * half);
+        let d = du * dv;
+        OnDisk { x: side(u, dv), y: side(v, du), d, e: L::splat(1.0) + d }
+    }
+}
+
+/// A representable point: the column from 0 to m, the row from -m to m, and whether it is a lower
+/// one.
+struct Point<L: Lane> {
+    column: L::Int,
+    row: L::Int,
+    lower: L::Mask,
+}
+
+impl<L: Lane> Point<L> {
+    /// The nearest in range. Column 0 has no sign, so it is the upper hemisphere's.
+    #[inline(always)]
+    fn clamped(column: L::Int, row: L::Int, lower: L::Mask, max: L::Int) -> Self {
+        let column = column.max(L::Int::splat(0)).min(max);
+        let lower = lower & L::Int::splat(0).lt(column);
+        Point { column, row: row.max(-max).min(max), lower }
+    }
+}
+
+/// The square of one projection and stretch, with `m` columns to each side of the first. `m` is no
+/// constant, so that all sizes share the search for the nearest point.
+struct Chart<P, S>(PhantomData<(P, S)>);
+
+impl<P: Projection, S: Stretch> Chart<P, S> {
+    /// Column and row of a unit vector in the chart of its own hemisphere or, `past` the equator, in
+    /// the other; and the same point of the disk.
+    #[inline(always)]
+    fn params<L: Lane>([x, y, z]: [L; 3], past: bool, m: i32) -> ([L; 2], OnDisk<L>) {
+        let z = if past { -z.abs() } else { z.abs() };
+        let disk = P::to_disk([x, y, z], past);
+        let [u, v] = S::to_square(disk);
+        let (max, half) = (L::splat(m as f32), L::splat(0.5 * m as f32));
+        ([u * half + half, v * max], disk)
+    }
+
+    /// The canonical parameters.
+    #[inline(always)]
+    fn snorms<L: Lane>(point: &Point<L>, m: i32) -> [L::Int; 2] {
+        let max = L::Int::splat(m);
+        let (u, v) = (point.column + point.column - max, point.row);
+        let equator =
+            if S::CORNERS { (u * u + v * v).eq(max * max) } else { u.abs().max(v.abs()).eq(max) };
+        let upper = !point.lower | equator;
+        [L::Int::select(upper, point.column, -point.column), v]
+    }
+
+    #[inline(always)]
+    fn vector<L: Lane>(point: &Point<L>, m: i32) -> [L; 3] {
+        let u = point.column + point.column - L::Int::splat(m);
+        let [x, y, z] = P::from_disk(S::from_square::<L>([u, point.row], m));
+        [x, y, L::select(point.lower, -z, z)]
+    }
+
+    /// The parameters of the point nearest to a direction.
+    #[inline(never)]
+    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L::Int; 2] {
+        let v = unit(v);
+        let mut search = Search::<P, S, L> { closest: Closest::to_unit(v), m, chart: PhantomData };
+        let lower = v[2].lt(L::zero());
+        let always = L::zero().le(L::zero());
+        search.window(always, Self::params(v, false, m).0, lower);
+        if S::CORNERS {
+            search.outside(v, !lower);
+        }
+        let code = search.closest.code();
+        [code.sar(16), code.sign_extend(16)]
+    }
+}
+
+/// v / |v|. What was decoded keeps its bits, and so finds its code again, however close the next
+/// point is.
+#[inline(always)]
+fn unit<L: Lane>(v: [L; 3]) -> [L; 3] {
+    // The power of two that brings the length between 0.8 and 1.7.
+    let square = length_squared(v);
+    let exponent = (square * L::splat(1.5)).to_bits().shr(23) - L::Int::splat(127);
+    let scale = L::from_bits((L::Int::splat(127) - exponent.sar(1)).shl(23));
+    let is_unit = (square * scale * scale - L::splat(1.0)).abs().lt(L::splat(1e-6));
+    let k = L::select(is_unit, scale, inv_sqrt(square));
+    v.each(|c| c * k)
+}
+
+/// The nearest point so far.
+struct Search<P, S, L: Lane> {
+    closest: Closest<L>,
+    m: i32,
+    chart: PhantomData<(P, S)>,
+}
+
+impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
+    #[inline(always)]
+    fn consider(&mut self, counts: L::Mask, place: [L::Int; 2], lower: L::Mask) {
+        let point = Point::<L>::clamped(place[0], place[1], lower, L::Int::splat(self.m));
+        let u = point.column + point.column - L::Int::splat(self.m);
+        let double = P::is_double::<L>([u, point.row], self.m);
+        let counts = if S::CORNERS { counts & !double } else { counts };
+        let [column, row] = Chart::<P, S>::snorms::<L>(&point, self.m);
+        let code = column.shl(16) | row.low(16);
+        self.closest.consider_where(counts, code, Chart::<P, S>::vector(&point, self.m));
+    }
+
+    /// Considers the points around a place.
+    #[inline(always)]
+    fn window(&mut self, counts: L::Mask, place: [L; 2], lower: L::Mask) {
+        let [column, row] = place.each(|p| p.floor().round_int());
+        let [columns, rows] = S::REACH;
+        for i in -columns..=columns + 1 {
+            for j in -rows..=rows + 1 {
+                let place = [column + L::Int::splat(i), row + L::Int::splat(j)];
+                self.consider(counts, place, lower);
+            }
+        }
+    }
+
+    /// Considers the points outside the disk of the other hemisphere, which is the `lower` one.
+    #[inline(always)]
+    fn outside(&mut self, v: [L; 3], lower: L::Mask) {
+        let edge = L::splat(self.m as f32);
+        let ([column, row], OnDisk { d, e, .. }) = Chart::<P, S>::params(v, true, self.m);
+        let u = column + column - edge;
+        let reachable = L::splat(-0.2).lt(e);
+        if !reachable.any() {
+            return;
+        }
+        let limit = edge + L::splat(4.0);
+        let beside = u.abs().le(limit) & row.abs().le(limit);
+        self.window(beside, [column, row], lower);
+        // Towards the corners cells grow long across the radius: follow the parallel of v from
+        // column to column.
+        let max = L::Int::splat(self.m);
+        let scale = L::splat(1.0 / self.m as f32);
+        let rr = (L::splat(1.0) - d) * edge * edge;
+        let inside = sqrt((-d).greater(L::zero())) * edge;
+        let start = u.abs().greater(inside).lesser(edge).negate_where_negative(u);
+        let start = ((start + edge) * L::splat(0.5)).round_int();
+        let mut open = reachable;
+        let mut offset = L::Int::splat(0);
+        while open.any() {
+            let mut any_open = L::zero().lt(L::zero());
+            for column in [start + offset, start - offset] {
+                let exists = L::Int::splat(-1).lt(column) & column.lt(max + L::Int::splat(1));
+                let u = L::from_int(column + column - max);
+                let across = sqrt((rr - u * u).greater(L::zero())).negate_where_negative(row);
+                let [x, y, z] = P::from_disk(OnDisk { x: u * scale, y: across * scale, d, e });
+                let there = [x, y, L::select(lower, -z, z)];
+                let near =
+                    chord_squared(there, v).le(self.closest.distance_squared() * L::splat(4.0));
+                let counts = open & exists & near;
+                any_open = any_open | counts;
+                if counts.any() {
+                    let row = across.floor().round_int();
+                    for j in -1..=2 {
+                        self.consider(counts, [column, row + L::Int::splat(j)], lower);
+                    }
+                }
+            }
+            open = open & any_open;
+            offset = offset + L::Int::splat(1);
+        }
+    }
+}
+
+impl<P: Projection, S: Stretch, const BITS: u32> Disk<P, S, BITS> {
+    const M: i32 = snorm_max(BITS / 2);
+}
+
+impl<P: Projection, S: Stretch, const BITS: u32> Formula for Disk<P, S, BITS> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        let lower = v[2].lt(L::zero());
+        let ([column, row], _) = Chart::<P, S>::params(normalize(v), false, Self::M);
+        let max = L::Int::splat(Self::M);
+        let point = Point::<L>::clamped(column.round_int(), row.round_int(), lower, max);
+        pack_snorm2::<BITS, L>(Chart::<P, S>::snorms(&point, Self::M))
+    }
+
+    #[inline(always)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        pack_snorm2::<BITS, L>(Chart::<P, S>::nearest(v, Self::M))
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let [column, row] = unpack_snorm2::<BITS, L>(code);
+        let lower = column.lt(L::Int::splat(0));
+        Chart::<P, S>::vector(&Point { column: column.abs(), row, lower }, Self::M)
+    }
+}
+
+impl<P: Projection, S: Stretch, const BITS: u32> Symmetric for Disk<P, S, BITS> {
+    /// Half the columns, M being odd, and the rows from 0.
+    const ENTRIES: usize = (Self::M as usize).div_ceil(2) * (Self::M as usize + 1);
+
+    #[inline(always)]
+    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
+        let (max, zero) = (L::Int::splat(Self::M), L::Int::splat(0));
+        let [column, row] = unpack_snorm2::<BITS, L>(code);
+        let magnitude = column.abs();
+        let u = magnitude + magnitude - max;
+        let index = u.abs().shr(1) * (max + L::Int::splat(1)) + row.abs();
+        (index, [u.lt(zero), row.lt(zero), column.lt(zero)])
+    }
+}

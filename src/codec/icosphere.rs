@@ -1,0 +1,166 @@
+//! Icosphere: the 162 vertices of an icosahedron whose edges are cut into four and pushed out to
+//! the sphere, as Quake 2 stored the normals of its models.
+//!
+//! ```text
+//! faces      of the vertices (+-1, 0, +-phi), (+-phi, +-1, 0), (0, +-phi, +-1), phi = (1 + sqrt 5) / 2
+//! vertices   (i A + j B + k C) / |i A + j B + k C| for each face A, B, C, i + j + k = 4
+//! ```
+//!
+//! All of them are mirror images of the 27 in the octant x, y, z >= 0, where the nearest one is
+//! sought. Those are nine, and the same with their components moved up once and twice:
+//!
+//! ```text
+//! n       point          weights of (1, 0, phi), (phi, 1, 0), (0, phi, 1), (-1, 0, phi)
+//! 0..5    off all planes 3 1 0 0, 3 0 1 0, 2 2 0 0, 2 1 1 0, 2 0 1 1    code = (3 n + moves) 8 + signs
+//! 5..8    on a plane     4 0 0 0, 3 0 0 1, 1 0 2 1                      code = 120 + (3 (n - 5) + moves) 4 + signs
+//! 8       on an axis     2 0 0 2                                        code = 156 + 2 moves + sign
+//! ```
+//!
+//! signs has a bit for each component that is not zero, x first, set if it is negative. A move takes
+//! (x, y, z) to (z, x, y). Codes from 162 read as 161. A table of 2 KB holds the vertices for decoding.
+//!
+//! All six axes survive exactly. Both encoders give the nearest code.
+//!
+//! Source: id Software, "Quake II" (anorms.h), 1997, for the set; the numbering is ours.
+
+use crate::formula::{Formula, One};
+use crate::lane::{Each, Lane, LaneInt};
+
+/// The 162 vertices.
+pub(crate) struct Icosphere;
+
+const VERTICES: usize = 162;
+
+/// A vertex with x, y, z >= 0, and the codes of it and its images.
+#[derive(Clone, Copy)]
+struct Corner {
+    point: [f64; 3],
+    /// The code without signs.
+    code: usize,
+}
+
+const CORNERS: [Corner; 27] = corners();
+const POINTS: [[f32; 3]; 27] = {
+    let mut points = [[0.0; 3]; 27];
+    let mut n = 0;
+    while n < 27 {
+        let [x, y, z] = CORNERS[n].point;
+        points[n] = [x as f32, y as f32, z as f32];
+        n += 1;
+    }
+    points
+};
+/// The bits of the components of every vertex.
+static TABLE: [[u32; VERTICES]; 3] = table();
+
+const fn corners() -> [Corner; 27] {
+    const WEIGHTS: [[f64; 4]; 9] = [
+        [3.0, 1.0, 0.0, 0.0],
+        [3.0, 0.0, 1.0, 0.0],
+        [2.0, 2.0, 0.0, 0.0],
+        [2.0, 1.0, 1.0, 0.0],
+        [2.0, 0.0, 1.0, 1.0],
+        [4.0, 0.0, 0.0, 0.0],
+        [3.0, 0.0, 0.0, 1.0],
+        [1.0, 0.0, 2.0, 1.0],
+        [2.0, 0.0, 0.0, 2.0],
+    ];
+    const PHI: f64 = 1.618_033_988_749_895;
+    let mut corners = [Corner { point: [0.0; 3], code: 0 }; 27];
+    let mut code = 0;
+    let mut n = 0;
+    while n < 27 {
+        let [a, b, c, d] = WEIGHTS[n / 3];
+        let v = [a + PHI * b - d, b + PHI * c, PHI * (a + d) + c];
+        let length = root(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        let v = [v[0] / length, v[1] / length, v[2] / length];
+        let moves = n % 3;
+        let point = [v[(3 - moves) % 3], v[(4 - moves) % 3], v[(5 - moves) % 3]];
+        corners[n] = Corner { point, code };
+        code += images(point);
+        n += 1;
+    }
+    assert!(code == VERTICES);
+    corners
+}
+
+/// Newton's method.
+const fn root(x: f64) -> f64 {
+    let mut y = x;
+    let mut step = 0;
+    while step < 60 {
+        y = 0.5 * (y + x / y);
+        step += 1;
+    }
+    y
+}
+
+/// How many mirror images a point of the octant has, itself included.
+const fn images(point: [f64; 3]) -> usize {
+    let mut images = 1;
+    let mut i = 0;
+    while i < 3 {
+        if point[i] > 0.0 {
+            images *= 2;
+        }
+        i += 1;
+    }
+    images
+}
+
+const fn table() -> [[u32; VERTICES]; 3] {
+    let mut table = [[0; VERTICES]; 3];
+    let mut n = 0;
+    while n < 27 {
+        let Corner { point, code } = CORNERS[n];
+        let mut signs = 0;
+        while signs < images(point) {
+            let (mut i, mut bit) = (0, 0);
+            while i < 3 {
+                let mut c = point[i] as f32;
+                if point[i] > 0.0 {
+                    if signs >> bit & 1 == 1 {
+                        c = -c;
+                    }
+                    bit += 1;
+                }
+                table[i][code + signs] = c.to_bits();
+                i += 1;
+            }
+            signs += 1;
+        }
+        n += 1;
+    }
+    table
+}
+
+impl Formula for Icosphere {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        let [x, y, z] = v.each(|c| c.abs());
+        let negative =
+            v.each(|c| L::Int::select(c.lt(L::zero()), L::Int::splat(1), L::Int::splat(0)));
+        let mut greatest = -L::splat(1.0);
+        let mut code = L::Int::splat(0);
+        for (corner, point) in CORNERS.iter().zip(&POINTS) {
+            let [px, py, pz] = point.each(|c| L::splat(c));
+            let dot = x * px + y * py + z * pz;
+            let add = |i: usize, signs: L::Int| {
+                if corner.point[i] > 0.0 { signs + signs + negative[i] } else { signs }
+            };
+            let signs = add(0, add(1, add(2, L::Int::splat(0))));
+            let closer = greatest.lt(dot);
+            code = L::Int::select(closer, signs + L::Int::splat(corner.code as i32), code);
+            greatest = L::select(closer, dot, greatest);
+        }
+        code
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let index = code.low(8).min(L::Int::splat(VERTICES as i32 - 1));
+        [&TABLE[0], &TABLE[1], &TABLE[2]].each(|bits| L::from_bits(L::gather(bits, index)))
+    }
+}

@@ -1,0 +1,184 @@
+//! Lat-long: points on parallels, counted from the north pole to the south.
+//!
+//! ```text
+//! latlong    N = 2^(BITS/2) - 1 parallels at theta = j pi / (N - 1), N points on each at phi = 2 pi k / N;  index = j N + k
+//! latlongD   F parallels at theta = j pi / (F - 1), the j-th with as many points as keep every direction within e degrees;
+//!            index = points on earlier parallels + k
+//! ```
+//!
+//! latlongD has so many points on each parallel that its cells are about as wide as high; F
+//! minimises the total for a given e, and e is the least with which all points fit into BITS bits:
+//! 227, 3 629 and 58 073 parallels with 65 536, 16 777 216 and 4 294 967 295 points. A table of 4
+//! bytes a parallel (1, 15 and 232 KB) holds where each begins. Decoding guesses the parallel from
+//! the index, as the area of a cap, and is right or off by one.
+//!
+//! Codes are indices, little-endian in 24 bits. Canonical: a pole is point 0 of its parallel;
+//! indices beyond the last point read as the south pole. Of the axes, +-Z and +X survive exactly,
+//! and -X in latlong16D and 24D, whose equator has an even number of points.
+//!
+//! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
+//! 2014; optimal spacing after Smith and Petrova, "Fast Indexing of Spherical Points", 2012.
+
+use core::marker::PhantomData;
+
+use crate::formula::{Closest, Formula, One};
+use crate::lane::{Lane, LaneInt};
+use crate::layout::unorm_max;
+use crate::math::{atan2_half_turns, sin_cos_half_turns, sqrt};
+
+/// Lat-long on the parallels `P`.
+pub(crate) struct LatLong<P>(PhantomData<P>);
+
+/// `BITS` bits, as many points on every parallel.
+pub(crate) struct Even<const BITS: u32>;
+
+/// `BITS` bits, fewer points towards the poles.
+pub(crate) struct Spaced<const BITS: u32>;
+
+/// Parallels at equal distances, from pole to pole, with points on them.
+pub(crate) trait Parallels: 'static {
+    /// The south pole's, if the north pole's is 0.
+    const LAST: i32;
+    /// The index of a parallel's first point, and how many it has; the poles have one.
+    fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int);
+    /// The parallel of an index and the point on it. What is beyond the last point is on the last
+    /// parallel.
+    fn find<L: Lane>(index: L::Int) -> (L::Int, L::Int);
+}
+
+/// Polar angle and azimuth in half turns, the azimuth from 0 to 2.
+#[inline(always)]
+fn angles<L: Lane>([x, y, z]: [L; 3]) -> [L; 2] {
+    let theta = atan2_half_turns(sqrt(x * x + y * y), z);
+    let phi = atan2_half_turns(y, x);
+    [theta, L::select(phi.lt(L::zero()), phi + L::splat(2.0), phi)]
+}
+
+/// The two integers around `x`, the nearer one first.
+#[inline(always)]
+fn around<L: Lane>(x: L) -> [L::Int; 2] {
+    let near = x.round_int();
+    let up = L::from_int(near).lt(x);
+    [near, near + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1))]
+}
+
+/// Point `k` modulo `count`, from -count to count.
+#[inline(always)]
+fn wrap<L: Lane>(k: L::Int, count: L::Int) -> L::Int {
+    let k = L::Int::select(k.lt(L::Int::splat(0)), k + count, k);
+    L::Int::select(k.lt(count), k, L::Int::splat(0))
+}
+
+impl<P: Parallels> LatLong<P> {
+    /// Point `k` of `count` on a parallel.
+    #[inline(always)]
+    fn point<L: Lane>(parallel: L::Int, k: L::Int, count: L::Int) -> [L; 3] {
+        let theta = L::from_int(parallel) / L::splat(P::LAST as f32);
+        // From -1 to 1: beyond half a turn a bit would be lost.
+        let k = L::Int::select(count.lt(k + k), k - count, k);
+        let phi = L::from_int(k + k) / L::from_int(count);
+        let (sin_theta, cos_theta) = sin_cos_half_turns(theta);
+        let (sin_phi, cos_phi) = sin_cos_half_turns(phi);
+        [sin_theta * cos_phi, sin_theta * sin_phi, cos_theta]
+    }
+}
+
+impl<P: Parallels> Formula for LatLong<P> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+        let [theta, phi] = angles(v);
+        let (begin, count) = P::band::<L>((theta * L::splat(P::LAST as f32)).round_int());
+        begin + wrap::<L>((phi * L::splat(0.5) * L::from_int(count)).round_int(), count)
+    }
+
+    #[inline(never)]
+    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+        let [theta, phi] = angles(v);
+        let (zero, last) = (L::Int::splat(0), L::Int::splat(P::LAST));
+        let mut closest = Closest::to(v);
+        for parallel in around(theta * L::splat(P::LAST as f32)) {
+            let parallel = parallel.max(zero).min(last);
+            let (begin, count) = P::band::<L>(parallel);
+            for k in around(phi * L::splat(0.5) * L::from_int(count)) {
+                let k = wrap::<L>(k, count);
+                closest.consider(begin + k, Self::point(parallel, k, count));
+            }
+        }
+        closest.code()
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let (parallel, k) = P::find::<L>(code);
+        let (_, count) = P::band::<L>(parallel);
+        Self::point(parallel, wrap::<L>(k, count), count)
+    }
+}
+
+impl<const BITS: u32> Even<BITS> {
+    const N: i32 = unorm_max(BITS / 2);
+}
+
+impl<const BITS: u32> Parallels for Even<BITS> {
+    const LAST: i32 = Self::N - 1;
+
+    #[inline(always)]
+    fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int) {
+        let inner = L::Int::splat(0).lt(parallel) & parallel.lt(L::Int::splat(Self::LAST));
+        let n = L::Int::splat(Self::N);
+        (parallel * n, L::Int::select(inner, n, L::Int::splat(1)))
+    }
+
+    #[inline(always)]
+    fn find<L: Lane>(index: L::Int) -> (L::Int, L::Int) {
+        // index = high 2^h + low = high N + (high + low), with N = 2^h - 1.
+        let half = BITS / 2;
+        let n = L::Int::splat(Self::N);
+        let (high, low) = (index.low(BITS).shr(half), index.low(half));
+        let k = high + low;
+        let carry = !k.lt(n);
+        let parallel = L::Int::select(carry, high + L::Int::splat(1), high);
+        (parallel.min(L::Int::splat(Self::LAST)), L::Int::select(carry, k - n, k))
+    }
+}
+
+/// Where each parallel begins, and at the end how many points there are.
+pub(crate) trait Table: 'static {
+    const BEGINS: &'static [u32];
+}
+
+include!(concat!(env!("OUT_DIR"), "/latlong_bands.rs"));
+
+impl<const BITS: u32> Parallels for Spaced<BITS>
+where
+    Self: Table,
+{
+    const LAST: i32 = Self::BEGINS.len() as i32 - 2;
+
+    #[inline(always)]
+    fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int) {
+        let begin = L::gather(Self::BEGINS, parallel);
+        (begin, L::gather(Self::BEGINS, parallel + L::Int::splat(1)) - begin)
+    }
+
+    #[inline(always)]
+    fn find<L: Lane>(index: L::Int) -> (L::Int, L::Int) {
+        let index = index.low(BITS);
+        // The cap above the point has the area share (1 - cos theta) / 2 = sin^2(theta / 2).
+        let total = L::Int::splat(const { Self::BEGINS[Self::BEGINS.len() - 1] as i32 });
+        let above = L::from_unsigned(index) + L::splat(0.5);
+        let below = (L::from_unsigned(total - index) - L::splat(0.5)).greater(L::splat(0.5));
+        let theta = atan2_half_turns(sqrt(above), sqrt(below));
+        let guess = (theta * L::splat(2.0 * Self::LAST as f32)).round_int();
+        // One off at most.
+        let (begin, count) = Self::band::<L>(guess);
+        let early = index.below(begin);
+        let late = !(index - begin).below(count) & !early;
+        let step = L::Int::select(late, L::Int::splat(1), L::Int::splat(0));
+        let parallel = L::Int::select(early, guess - L::Int::splat(1), guess + step);
+        let parallel = parallel.max(L::Int::splat(0)).min(L::Int::splat(Self::LAST));
+        (parallel, index - Self::band::<L>(parallel).0)
+    }
+}

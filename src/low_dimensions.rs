@@ -1,0 +1,209 @@
+//! Unit vectors of one and two dimensions: [`Sign`] in one bit, [`Angle`] in 1 to 24.
+//!
+//! Source: the closing remark of Cigolle et al., "A Survey of Efficient Representations for
+//! Independent Unit Vectors", 2014.
+
+use crate::CodeInt;
+use crate::batch::{ones, ones_mut, split, split_mut};
+use crate::code_int::holds;
+use crate::error::LengthMismatch;
+use crate::formula::direction;
+use crate::lane::{Each, Lane, LaneInt};
+use crate::lane8::F8;
+use crate::math::{angle_in_octant, sin_cos_half_turns};
+
+/// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
+///
+/// In bytes, the first of eight values stands in the lowest bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Sign;
+
+impl Sign {
+    /// 1 if `x` is below zero, else 0: for zero of either sign and NaN too.
+    #[inline]
+    pub fn encode(x: f32) -> u8 {
+        (x < 0.0).into()
+    }
+
+    /// 1 or, if the lowest bit of `code` is set, -1. The other bits are ignored.
+    #[inline]
+    pub fn decode(code: u8) -> f32 {
+        f32::from_bits(1.0f32.to_bits() | u32::from(code) << 31)
+    }
+
+    /// [`encode`](Sign::encode) for a slice. `bytes` is an eighth as long as `x`, rounded up; the
+    /// bits of the last byte that no value has become 0.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
+    pub fn encode_slice(x: &[f32], bytes: &mut [u8]) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_signs(x.len(), bytes.len())?;
+        for (x, byte) in x.chunks(8).zip(bytes) {
+            *byte = x.iter().rev().fold(0, |byte, &x| byte << 1 | Self::encode(x));
+        }
+        Ok(())
+    }
+
+    /// [`decode`](Sign::decode) for a slice. `bytes` is an eighth as long as `x`, rounded up.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
+    pub fn decode_slice(bytes: &[u8], x: &mut [f32]) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_signs(x.len(), bytes.len())?;
+        for (x, &byte) in x.chunks_mut(8).zip(bytes) {
+            for (bit, x) in (0..8).zip(x) {
+                *x = Self::decode(byte >> bit);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// 2D: an angle in `BITS` bits, from 1 to 24. Code k is the direction of k / 2^`BITS` turns, from +X
+/// over +Y.
+///
+/// No code of so many bits is better: the greatest error is half a step, pi / 2^`BITS` radians or
+/// 180 / 2^`BITS` degrees, and 1.3e-7 radians of `f32` rounding; the mean is half of that. The axes
+/// survive exactly, +-Y from two bits on. Every code is canonical: it encodes back to itself.
+///
+/// ```text
+/// encode   k = round(atan2(y, x) 2^BITS / (2 pi)) mod 2^BITS
+/// decode   v = (cos, sin)(2 pi k / 2^BITS)
+/// ```
+///
+/// Other widths do not compile:
+///
+/// ```compile_fail
+/// unitpack::low_dimensions::Angle::<25>::encode([1.0, 0.0]);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Angle<const BITS: u32>;
+
+impl<const BITS: u32> Angle<BITS> {
+    const BITS: u32 = {
+        assert!(BITS >= 1 && BITS <= 24, "an angle has from 1 to 24 bits");
+        BITS
+    };
+
+    /// The nearest code of a vector of any length; of two equally near, the even one.
+    ///
+    /// Zero and NaN encode as +X, an infinite component as the limit direction.
+    #[inline]
+    pub fn encode(v: [f32; 2]) -> u32 {
+        let mut code = [0];
+        Self::encode_block::<u32, f32>(&[v[0]], &[v[1]], &mut code);
+        code[0]
+    }
+
+    /// The vector of a code, each component with error below 1.2e-7 and its length 1 to 2.5e-7. Bits
+    /// above `BITS` are ignored.
+    #[inline]
+    pub fn decode(code: u32) -> [f32; 2] {
+        let (mut x, mut y) = ([0.0], [0.0]);
+        Self::decode_block::<u32, f32>(&[code], &mut x, &mut y);
+        [x[0], y[0]]
+    }
+
+    /// [`encode`](Angle::encode) for structures of arrays, the x and the y components. `T` is `u8`,
+    /// `u16` or `u32`; too narrow a one does not compile:
+    ///
+    /// ```compile_fail
+    /// use unitpack::low_dimensions::Angle;
+    /// let _ = Angle::<9>::encode_soa(&[1.0], &[0.0], &mut [0u8]);
+    /// ```
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the three slices are not equally long; nothing is written then.
+    pub fn encode_soa<T: CodeInt>(
+        x: &[f32],
+        y: &[f32],
+        codes: &mut [T],
+    ) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_angles(x.len(), y.len(), codes.len())?;
+        let (x8, x) = split::<f32>(x);
+        let (y8, y) = split::<f32>(y);
+        let (codes8, codes) = split_mut(codes);
+        for ((x, y), codes) in x8.iter().zip(y8).zip(codes8) {
+            Self::encode_block::<T, F8>(x, y, codes);
+        }
+        for ((x, y), codes) in ones(x).iter().zip(ones(y)).zip(ones_mut(codes)) {
+            Self::encode_block::<T, f32>(x, y, codes);
+        }
+        Ok(())
+    }
+
+    /// [`decode`](Angle::decode) for structures of arrays, the x and the y components. `T` is `u8`,
+    /// `u16` or `u32`; too narrow a one does not compile.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the three slices are not equally long; nothing is written then.
+    pub fn decode_soa<T: CodeInt>(
+        codes: &[T],
+        x: &mut [f32],
+        y: &mut [f32],
+    ) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_angles(x.len(), y.len(), codes.len())?;
+        let (x8, x) = split_mut(x);
+        let (y8, y) = split_mut(y);
+        let (codes8, codes) = split(codes);
+        for ((codes, x), y) in codes8.iter().zip(x8).zip(y8) {
+            Self::decode_block::<T, F8>(codes, x, y);
+        }
+        for ((codes, x), y) in ones(codes).iter().zip(ones_mut(x)).zip(ones_mut(y)) {
+            Self::decode_block::<T, f32>(codes, x, y);
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn encode_block<T: CodeInt, L: Lane>(
+        x: &L::Block<f32>,
+        y: &L::Block<f32>,
+        codes: &mut L::Block<T>,
+    ) {
+        const { assert!(holds::<T>(Self::BITS), "the integer has too few bits for the angle") };
+        // What is no direction becomes (0, 0, 1), and (0, 0) has the angle 0.
+        let [x, y, _] = direction([L::load(x), L::load(y), L::zero()]);
+        L::store_int(Self::nearest([x, y]), codes, |code, k| *code = T::truncate(k));
+    }
+
+    #[inline(always)]
+    fn decode_block<T: CodeInt, L: Lane>(
+        codes: &L::Block<T>,
+        x: &mut L::Block<f32>,
+        y: &mut L::Block<f32>,
+    ) {
+        const { assert!(holds::<T>(Self::BITS), "the integer has too few bits for the angle") };
+        let k = L::load_int(codes, T::into).sign_extend(BITS);
+        // Exact, as is its distance from the nearest quarter turn.
+        let half_turns = L::from_int(k) * L::splat(1.0 / (1u32 << (BITS - 1)) as f32);
+        let (sin, cos) = sin_cos_half_turns(half_turns);
+        // No negative zeros.
+        let [cos, sin] = [cos, sin].each(|c| c + L::zero());
+        cos.store(x);
+        sin.store(y);
+    }
+
+    #[inline(always)]
+    fn nearest<L: Lane>([x, y]: [L; 2]) -> L::Int {
+        let (ax, ay) = (x.abs(), y.abs());
+        // So many eighths of a turn, and a rest in half turns: no digit of a long code is lost.
+        let (steep, rest) = angle_in_octant(ax, ay);
+        let eighths = L::Int::select(steep, L::Int::splat(1), L::Int::splat(0));
+        let mirror = |mask: L::Mask, sum: i32, (eighths, rest): (L::Int, L)| {
+            let mirrored = L::Int::splat(sum) - eighths;
+            (L::Int::select(mask, mirrored, eighths), L::select(mask, -rest, rest))
+        };
+        let angle = mirror(ax.lt(ay), 2, (eighths, rest));
+        let angle = mirror(x.lt(L::zero()), 4, angle);
+        let (eighths, rest) = mirror(y.lt(L::zero()), 0, angle);
+        let rest = rest * L::splat((1u32 << (BITS - 1)) as f32);
+        let k = if BITS < 3 {
+            let eighth = L::splat(if BITS == 1 { 0.25 } else { 0.5 });
+            (L::from_int(eighths) * eighth + rest).round_int()
+        } else {
+            eighths.shl(BITS - 3) + rest.round_int()
+        };
+        k.low(BITS)
+    }
+}
