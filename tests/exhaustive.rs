@@ -135,8 +135,8 @@ fn codes_decode_to_unit_vectors_and_back() {
     assert!(failures.is_empty(), "{} chunks failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-#[test]
-fn fast_codes_are_canonical() {
+/// What an encoder gave is decoded and encoded again.
+fn check_canonical(encode: fn(Format, &[[f32; 3]]) -> Vec<u128>) {
     let vectors = mixed_vectors(4, 200_000);
     let all: Vec<_> = formats().collect();
     check_all(&all, |&format| {
@@ -156,6 +156,16 @@ fn fast_codes_are_canonical() {
             }
         }
     });
+}
+
+#[test]
+fn fast_codes_are_canonical() {
+    check_canonical(encode);
+}
+
+#[test]
+fn precise_codes_are_canonical() {
+    check_canonical(encode_precise);
 }
 
 #[test]

@@ -56,6 +56,9 @@ pub(crate) struct OnDisk<L> {
 
 /// From a hemisphere, whose pole is z = 1, to the unit disk.
 pub(crate) trait Projection: 'static {
+    /// Whether x^2 + y^2 = 2, the corners of the square, is the other pole.
+    const POLE_IN_CORNERS: bool = false;
+
     /// Of a unit vector with z >= 0 or, if it is to be seen `past` the equator, z <= 0.
     fn to_disk<L: Lane>(v: [L; 3], past: bool) -> OnDisk<L>;
     /// x^2 + y^2 may be up to 2.
@@ -119,6 +122,8 @@ impl Projection for Stereo {
 pub(crate) struct EqArea;
 
 impl Projection for EqArea {
+    const POLE_IN_CORNERS: bool = true;
+
     #[inline(always)]
     fn to_disk<L: Lane>([x, y, z]: [L; 3], past: bool) -> OnDisk<L> {
         let e = one_plus_z([x, y, z], past);
@@ -298,10 +303,18 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
     fn snorms<L: Lane>(point: &Point<L>, m: i32) -> [L::Int; 2] {
         let max = L::Int::splat(m);
         let (u, v) = (point.column + point.column - max, point.row);
-        let equator =
-            if S::CORNERS { (u * u + v * v).eq(max * max) } else { u.abs().max(v.abs()).eq(max) };
+        let (on_u, on_v) = (u.abs().eq(max), v.abs().eq(max));
+        let equator = if S::CORNERS { (u * u + v * v).eq(max * max) } else { on_u | on_v };
         let upper = !point.lower | equator;
-        [L::Int::select(upper, point.column, -point.column), v]
+        let pole = |side| {
+            if S::CORNERS && P::POLE_IN_CORNERS {
+                L::Int::select(on_u & on_v, max, side)
+            } else {
+                side
+            }
+        };
+        let column = pole(point.column);
+        [L::Int::select(upper, column, -column), pole(v)]
     }
 
     #[inline(always)]
