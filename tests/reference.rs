@@ -99,12 +99,19 @@ fn nearest_count(format: Format) -> usize {
     }
 }
 
-/// Where simpler encoders missed the nearest code: in a coarse lattice, and at the rim.
-const HARD: [[f32; 3]; 4] = [
+/// Where simpler encoders missed the nearest code: in a coarse lattice, at the rim, and in the
+/// corners of the ellipse's square.
+const HARD: [[f32; 3]; 10] = [
     [-0.5464705, 0.6048495, 0.57924694],
     [-0.6650616, 0.33451542, -0.667677],
     [-0.7019101, -0.7011718, -0.1252212],
     [-0.99999994, -1.0, 2.0],
+    [-0.7101852, 0.70401484, 8.716084e-5],
+    [0.70265913, -0.7115266, -0.0001195407],
+    [-0.7103609, 0.70383763, 3.9055485e-7],
+    [0.7059746, 0.7082372, -3.4672305e-6],
+    [0.70861953, -0.7055908, 3.0971965e-5],
+    [-0.7034997, 0.71069556, -5.9495742e-5],
 ];
 
 #[test]

@@ -77,6 +77,9 @@ pub(crate) trait Stretch: 'static {
     const CORNERS: bool;
     /// How many columns and rows beside the two nearest ones the nearest code may be off.
     const REACH: [i32; 2];
+    /// Whether cells are sheared towards the corners of the square, so that the nearest code may
+    /// stand far along a diagonal.
+    const SHEARED: bool = false;
 
     fn to_square<L: Lane>(point: OnDisk<L>) -> [L; 2];
     /// Of integers from -m to m. Exact where d or e is zero.
@@ -242,8 +245,8 @@ pub(crate) struct Ellipse;
 
 impl Stretch for Ellipse {
     const CORNERS: bool = false;
-    // Towards the corners cells are sheared without limit.
     const REACH: [i32; 2] = [3, 4];
+    const SHEARED: bool = true;
 
     #[inline(always)]
     fn to_square<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 2] {
@@ -331,7 +334,11 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
         let mut search = Search::<P, S, L> { closest: Closest::to_unit(v), m, chart: PhantomData };
         let lower = v[2].lt(L::zero());
         let always = L::zero().le(L::zero());
-        search.window(always, Self::params(v, false, m).0, lower);
+        let place = Self::params(v, false, m).0;
+        search.window(always, place, lower);
+        if S::SHEARED {
+            search.diagonals(v, place, lower);
+        }
         if S::CORNERS {
             search.outside(v, !lower);
         }
@@ -382,6 +389,44 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
                 let place = [column + L::Int::splat(i), row + L::Int::splat(j)];
                 self.consider(counts, place, lower);
             }
+        }
+    }
+
+    /// Considers the nearest point on each of the diagonals beside a place near a corner: along
+    /// them, x and y hardly change.
+    #[inline(always)]
+    fn diagonals(&mut self, v: [L; 3], place: [L; 2], lower: L::Mask) {
+        let max = L::splat(self.m as f32);
+        let u = place[0] + place[0] - max;
+        let near = (max * L::splat(0.75)).lt(u.abs().lesser(place[1].abs()));
+        if !near.any() {
+            return;
+        }
+        let out = |side: L| L::Int::select(side.lt(L::zero()), L::Int::splat(-1), L::Int::splat(1));
+        // A column is two rows wide.
+        let step = [out(u), out(place[1]) + out(place[1])];
+        let [column, row] = place.each(|p| p.round_int());
+        let (zero, last) = (L::Int::splat(0), L::Int::splat(self.m));
+        let m = self.m;
+        let distance = |[column, row]: [L::Int; 2]| {
+            chord_squared(Chart::<P, S>::vector(&Point { column, row, lower }, m), v)
+        };
+        for beside in -3..=3 {
+            let mut at = [column.max(zero).min(last), row + L::Int::splat(beside)];
+            at[1] = at[1].max(-last).min(last);
+            let mut least = distance(at);
+            for length in [64, 32, 16, 8, 4, 2, 2, 1, 1] {
+                for length in [length, -length] {
+                    let length = L::Int::splat(length);
+                    let to = [at[0] + step[0] * length, at[1] + step[1] * length];
+                    let exists = !to[0].lt(zero) & !last.lt(to[0]) & !last.lt(to[1].abs());
+                    let there = distance(to);
+                    let closer = exists & there.lt(least);
+                    at = [0, 1].each(|i: usize| L::Int::select(closer, to[i], at[i]));
+                    least = L::select(closer, there, least);
+                }
+            }
+            self.consider(near, at, lower);
         }
     }
 

@@ -1478,7 +1478,11 @@ impl Representation for Disk {
         let at = |v: [f64; 3], lower: bool| {
             let middle = self.position(v, lower).map(|p| p.round() as i64);
             let middle = [middle[0], middle[1], i64::from(lower)];
-            window(self.range(), around(middle, self.reach()))
+            // The ellipse's cells are sheared towards the corners.
+            let corner = v[2].abs() < 0.01 && (v[0].abs() - v[1].abs()).abs() < 0.03;
+            let sheared = corner && self.stretch == Stretch::Ellipse;
+            let reach = if sheared { [24, 48, 0] } else { self.reach() };
+            window(self.range(), around(middle, reach))
         };
         let mut found = at(v, lower);
         if self.stretch == Stretch::Plain {
