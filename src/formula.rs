@@ -212,6 +212,14 @@ impl<L: Lane> Closest<L> {
     }
 }
 
+/// The two integers around `x`, the nearer one first.
+#[inline(always)]
+pub(crate) fn around<L: Lane>(x: L) -> [L::Int; 2] {
+    let near = x.round_int();
+    let up = L::from_int(near).lt(x);
+    [near, near + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1))]
+}
+
 /// The closest code of those whose two parameters are each rounded down or up. `decode` turns
 /// parameters, which may be one step out of range, into a canonical code and its vector.
 #[inline(always)]
@@ -220,15 +228,13 @@ pub(crate) fn closest_of_four<L: Lane>(
     params: [L; 2],
     decode: impl Fn([L::Int; 2]) -> (L::Int, [L; 3]),
 ) -> L::Int {
-    let near = params.each(|p| p.round_int());
-    let far: [L::Int; 2] = [0, 1].each(|i: usize| {
-        let up = L::from_int(near[i]).lt(params[i]);
-        near[i] + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1))
-    });
+    let [columns, rows] = params.each(around);
     let mut closest = Closest::to(target);
-    for [u, w] in [[near[0], near[1]], [far[0], near[1]], [near[0], far[1]], [far[0], far[1]]] {
-        let (code, decoded) = decode([u, w]);
-        closest.consider(code, decoded);
+    for w in rows {
+        for u in columns {
+            let (code, decoded) = decode([u, w]);
+            closest.consider(code, decoded);
+        }
     }
     closest.code()
 }

@@ -21,7 +21,7 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Closest, Formula, One};
+use crate::formula::{Closest, Formula, One, around};
 use crate::lane::{Lane, LaneInt};
 use crate::layout::unorm_max;
 use crate::math::{atan2_half_turns, sin_cos_half_turns, sqrt};
@@ -52,14 +52,6 @@ fn angles<L: Lane>([x, y, z]: [L; 3]) -> [L; 2] {
     let theta = atan2_half_turns(sqrt(x * x + y * y), z);
     let phi = atan2_half_turns(y, x);
     [theta, L::select(phi.lt(L::zero()), phi + L::splat(2.0), phi)]
-}
-
-/// The two integers around `x`, the nearer one first.
-#[inline(always)]
-fn around<L: Lane>(x: L) -> [L::Int; 2] {
-    let near = x.round_int();
-    let up = L::from_int(near).lt(x);
-    [near, near + L::Int::select(up, L::Int::splat(1), L::Int::splat(-1))]
 }
 
 /// Point `k` modulo `count`, from -count to count.
