@@ -128,6 +128,13 @@ pub(crate) fn decode_one<F: Formula, C: Stored<F::Words>>(code: C) -> [f32; 3] {
 }
 
 #[inline]
+pub(crate) fn canonical_one<F: Formula, C: Stored<F::Words>>(code: C) -> C {
+    let mut canonical = [C::zeroed()];
+    C::store::<f32>(F::canonical::<f32>(C::load::<f32>(&[code])), &mut canonical);
+    canonical[0]
+}
+
+#[inline]
 pub(crate) fn encode_soa<F: Formula, C: Stored<F::Words>>(
     v: Soa<'_>,
     codes: &mut [C],

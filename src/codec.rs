@@ -49,6 +49,25 @@ pub trait Codec: Copy + 'static {
     /// Unpacks a code, any bit pattern, into a vector of length 1 to 2.5e-7.
     fn decode(code: Self::Code) -> [f32; 3];
 
+    /// The code that encoders emit for the direction of `code`, any bit pattern: of several that mean
+    /// one direction the same. It is `encode_precise(decode(code))`, found without decoding but in
+    /// `Snorm16x3`, `XyzUnorm16x3` and `Float16x3`, where it takes as long as encoding.
+    ///
+    /// ```
+    /// use unitpack::{Codec, Oct16};
+    /// // (-127, -5) and (-127, 5) are one point of the border; -128 reads as -127.
+    /// let border = |u: i8, w: i8| u16::from_le_bytes([u as u8, w as u8]);
+    /// assert_eq!(Oct16::canonical(border(-128, -5)), border(-127, 5));
+    /// assert!(Oct16::is_canonical(border(-127, 5)));
+    /// ```
+    fn canonical(code: Self::Code) -> Self::Code;
+
+    /// Whether encoders emit `code` for its direction.
+    #[inline]
+    fn is_canonical(code: Self::Code) -> bool {
+        Self::canonical(code) == code
+    }
+
     /// [`encode`](Codec::encode) for structures of arrays.
     ///
     /// # Errors
@@ -150,6 +169,10 @@ macro_rules! codecs {
                 #[inline]
                 fn decode(code: $code) -> [f32; 3] {
                     batch::decode_one::<$formula, $code>(code)
+                }
+                #[inline]
+                fn canonical(code: $code) -> $code {
+                    batch::canonical_one::<$formula, $code>(code)
                 }
                 #[inline]
                 fn encode_soa(v: Soa<'_>, codes: &mut [$code]) -> Result<(), LengthMismatch> {
@@ -256,7 +279,7 @@ codecs! {
         Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, cartesian::Cartesian<cartesian::Snorm<10, 10, 10>>;
         Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, cartesian::Cartesian<cartesian::Snorm<11, 11, 10>>;
         Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, cartesian::Cartesian<cartesian::Snorm16>;
-        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00937 degrees, cartesian::Cartesian<cartesian::Halves>;
+        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, cartesian::Cartesian<cartesian::Halves>;
     }
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included." {
         Float32x3: [u32; 3] = "float32x3", 96 bits, 0.0 / 0.0 degrees, cartesian::Floats;

@@ -35,6 +35,9 @@ pub(crate) trait Formula: 'static {
 
     /// Total: a unit vector for every bit pattern. Bits above the code's width are ignored.
     fn decode<L: Lane>(code: Packed<Self, L>) -> [L; 3];
+
+    /// The code that encoders emit for the direction of `code`.
+    fn canonical<L: Lane>(code: Packed<Self, L>) -> Packed<Self, L>;
 }
 
 /// A formula whose decoder is the same, bit for bit, in all octants: mirroring a code mirrors its
@@ -198,6 +201,12 @@ impl<L: Lane> Closest<L> {
         let closer = counts & distance.lt(self.distance);
         self.code = L::Int::select(closer, code, self.code);
         self.distance = L::select(closer, distance, self.distance);
+    }
+
+    /// Whether in every lane the closest so far decodes to the target itself.
+    #[inline(always)]
+    pub(crate) fn is_exact(&self) -> bool {
+        !L::zero().lt(self.distance).any()
     }
 
     /// Chord to the closest so far.

@@ -69,13 +69,14 @@ pub(crate) trait Lane:
         Self::select(sign.lt(Self::zero()), -self, self)
     }
 
-    /// The lesser; `other` where either is NaN.
+    /// The lesser; `other` where either is NaN, but not for signalling ones: the compiler may take
+    /// AArch64's FMINNM, which makes them quiet and returns them. So a caller's numbers are rid of NaN before.
     #[inline(always)]
     fn lesser(self, other: Self) -> Self {
         Self::select(self.lt(other), self, other)
     }
 
-    /// The greater; `other` where either is NaN.
+    /// The greater; `other` where either is NaN, with the same exception.
     #[inline(always)]
     fn greater(self, other: Self) -> Self {
         Self::select(other.lt(self), self, other)

@@ -24,10 +24,16 @@ pub(crate) fn sqrt<L: Lane>(x: L) -> L {
     x * inv_sqrt(x)
 }
 
+/// a.b.
+#[inline(always)]
+pub(crate) fn dot<L: Lane>(a: [L; 3], b: [L; 3]) -> L {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 /// v.v.
 #[inline(always)]
 pub(crate) fn length_squared<L: Lane>(v: [L; 3]) -> L {
-    v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+    dot(v, v)
 }
 
 /// |a - b|^2.

@@ -174,8 +174,7 @@ impl<const BITS: u32> Grid for Unorm<BITS> {
 
     #[inline(always)]
     fn nearest<L: Lane>(x: L) -> L::Int {
-        // `greater` takes NaN as 0.
-        times_max(x.greater(L::zero()).lesser(L::splat(1.0)), BITS)
+        times_max(clamp(x).greater(L::zero()), BITS)
     }
     #[inline(always)]
     fn value<L: Lane>(code: L::Int) -> L {
@@ -235,6 +234,7 @@ impl<const BITS: u32> Grid for Fixed<BITS> {
 /// From -1 to 1; NaN becomes 0.
 #[inline(always)]
 fn clamp<L: Lane>(x: L) -> L {
+    // `greater` alone would not do: see there.
     let x = L::select(x.le(x), x, L::zero());
     x.greater(L::splat(-1.0)).lesser(L::splat(1.0))
 }

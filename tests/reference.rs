@@ -1,12 +1,11 @@
 //! Every codec against the oracle of `common/oracle.rs`, which computes in f64 what the definitions
 //! say.
 
+use crate::common::every_code::DECODE_ERROR;
 use crate::common::oracle::{Oracle, oracle};
 use crate::common::*;
 use unitpack::{Codec, Format, HemiOct16, Oct16, Oct24, Snorm8x3, Snorm11_11_10, XyOnly32F};
 
-/// The greatest angle between a decoded vector and the exact one.
-const DECODE_ERROR: f64 = 4e-7;
 /// By how much, in radians, rounding may mislead an encoder that compares distances in f32.
 const SLACK: f64 = 2.5e-7;
 
@@ -99,9 +98,9 @@ fn nearest_count(format: Format) -> usize {
     }
 }
 
-/// Where simpler encoders missed the nearest code: in a coarse lattice, at the rim, and in the
-/// corners of the ellipse's square.
-const HARD: [[f32; 3]; 10] = [
+/// Where simpler encoders missed the nearest code: in a coarse lattice, beside a diagonal of it, at
+/// the rim, in the corners of the ellipse's square, and half way between points far apart.
+const HARD: [[f32; 3]; 14] = [
     [-0.5464705, 0.6048495, 0.57924694],
     [-0.6650616, 0.33451542, -0.667677],
     [-0.7019101, -0.7011718, -0.1252212],
@@ -112,6 +111,10 @@ const HARD: [[f32; 3]; 10] = [
     [0.7059746, 0.7082372, -3.4672305e-6],
     [0.70861953, -0.7055908, 3.0971965e-5],
     [-0.7034997, 0.71069556, -5.9495742e-5],
+    [-0.99413264, 0.99999887, 1.8724366e-8],
+    [0.9954581, 0.9998165, -8.183487e-5],
+    [1.0003296, 1.000141, -1.0000025],
+    [-0.99999946, 1.0, 0.9999996],
 ];
 
 #[test]

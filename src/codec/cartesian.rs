@@ -25,7 +25,7 @@ use crate::formula::{Formula, One, Packed, Symmetric, Three, Words};
 use crate::half;
 use crate::lane::{Each, Lane, LaneInt, LaneMask};
 use crate::layout::{snorm_max, unorm_max};
-use crate::math::{chord_squared, inv_sqrt, length_squared, normalize, sqrt};
+use crate::math::{chord_squared, dot, inv_sqrt, length_squared, normalize, sqrt};
 
 /// Three components on a grid.
 pub(crate) struct Cartesian<G>(PhantomData<G>);
@@ -37,8 +37,7 @@ pub(crate) trait Grid: 'static {
     const STEPS: [f32; 3];
     /// How many values the search for the largest component tries.
     const LENGTHS: i32;
-    /// Whether f32 tells all directions of the grid apart. It is then so coarse that the nearest
-    /// may be half a step off.
+    /// Whether f32 tells all directions of the grid apart.
     const DISTINCT: bool;
     /// From one grid point to the next, in steps.
     const PITCH: i32 = 1;
@@ -56,6 +55,11 @@ pub(crate) trait Grid: 'static {
     #[inline(always)]
     fn value<L: Lane>(i: L::Int, step: L) -> L {
         L::from_int(i) * step
+    }
+    /// At most half the distance between the two values around `x`.
+    #[inline(always)]
+    fn half_gap<L: Lane>(_: L, step: L) -> L {
+        step * L::splat(0.49 * Self::PITCH as f32)
     }
     /// Of the points in the direction of `point`, which is not zero, the one whose length is
     /// nearest to 1.
@@ -187,6 +191,10 @@ impl Grid for Halves {
     #[inline(always)]
     fn value<L: Lane>(i: L::Int, _: L) -> L {
         half::value(i)
+    }
+    #[inline(always)]
+    fn half_gap<L: Lane>(x: L, _: L) -> L {
+        x.abs() * L::splat(0.99 / 4096.0)
     }
     #[inline(always)]
     fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
@@ -330,12 +338,13 @@ impl<L: Lane> Search<L> {
         let mut found = [L::Int::splat(0); 3];
         let mut distance = L::splat(4.0);
         let mut off_unit = L::splat(4.0);
-        // The angle is at least |e| / (|length| |slope|^2), with e the rounding error of the point,
-        // but for a tenth where it is large: one step in 15.
+        // A point can only be nearer if the sine of its angle, and so its offset across the target over
+        // its length, is below the chord so far; but for what f32 rounds off.
         let stretch = length_squared(self.slope);
+        let per_stretch = L::splat(1.0) / stretch;
         let limit = |distance: L| {
-            let e = (sqrt(distance) * L::splat(1.1) + L::splat(3e-7)) * stretch;
-            e * e
+            let sine = sqrt(distance) * L::splat(1.01) + L::splat(6e-7);
+            sine * sine
         };
         let mut within = limit(distance);
         let mut n = G::LENGTHS;
@@ -343,10 +352,22 @@ impl<L: Lane> Search<L> {
             let length = G::length(L::splat(n as f32), self.step);
             n -= 1;
             let ideal = self.slope.each(|s| s * length);
+            // Near the diagonals and in a coarse grid the rounded corner of the cell is not always
+            // the nearest: components may go the other way, if half a gap is near enough.
+            let gap = [0, 1, 2].each(|i: usize| G::half_gap(ideal[i], L::splat(1.0 / G::STEPS[i])));
+            let least = gap[0].lesser(gap[1]).lesser(gap[2]);
+            let farthest = length + gap[0].greater(gap[1]).greater(gap[2]) * L::splat(3.0);
+            let near_enough = farthest * farthest * stretch * within;
+            let other_ways = (least * least * per_stretch).le(near_enough).any();
             let mut consider = |point: [L::Int; 3]| {
                 let values = Cartesian::<G>::values::<L>(point);
-                let near = chord_squared(values, ideal).le(length * length * within)
-                    & length.le(L::splat(1.0));
+                let offset = [0, 1, 2].each(|i: usize| values[i] - ideal[i]);
+                let square = length_squared(offset);
+                let along = dot(offset, self.slope);
+                let across = square - along * along * per_stretch;
+                let slack = square * L::splat(1e-6);
+                let near =
+                    across.le(length_squared(values) * within + slack) & length.le(L::splat(1.0));
                 if near.any() {
                     // Where f32 does not tell neighbours apart, only canonical points compete.
                     let point = if G::DISTINCT { point } else { G::representative::<L>(point) };
@@ -363,19 +384,25 @@ impl<L: Lane> Search<L> {
             };
             let rounded = Cartesian::<G>::nearest(ideal);
             consider(rounded);
-            if G::DISTINCT {
-                // Near the diagonals the rounded corner of the cell is not always the nearest: one
-                // component may go the other way.
+            if other_ways {
+                // The corners but for the rounded one: the largest component stays as it is.
                 let values = Cartesian::<G>::values::<L>(rounded);
-                for axis in 0..3 {
+                let other = [0, 1, 2].each(|i: usize| {
                     let count =
                         |mask| L::Int::select(mask, L::Int::splat(G::PITCH), L::Int::splat(0));
-                    let up = count(values[axis].lt(ideal[axis]));
-                    let down = count(ideal[axis].lt(values[axis]));
-                    let mut point = rounded;
-                    point[axis] = point[axis] + up - down;
+                    let up = count(values[i].lt(ideal[i]));
+                    let down = count(ideal[i].lt(values[i]));
+                    rounded[i] + up - down
+                });
+                for kept in 0..3 {
+                    let mut point = other;
+                    point[kept] = rounded[kept];
                     consider(point);
                 }
+            }
+            // What was decoded ends at its own code.
+            if G::DISTINCT && !L::zero().lt(distance).any() {
+                break;
             }
         }
         found
@@ -400,6 +427,19 @@ impl<G: Grid> Formula for Cartesian<G> {
     #[inline(always)]
     fn decode<L: Lane>(code: Packed<Self, L>) -> [L; 3] {
         Self::unit(Self::values::<L>(G::unpack::<L>(code)))
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: Packed<Self, L>) -> Packed<Self, L> {
+        if !G::DISTINCT {
+            return Self::encode_precise(Self::decode::<L>(code));
+        }
+        let [x, y, z] = G::unpack::<L>(code);
+        let zero = L::Int::splat(0);
+        let is_zero = (x | y | z).eq(zero);
+        let [_, _, pole] = Self::nearest([L::zero(), L::zero(), L::splat(1.0)]);
+        let point = [x, y, L::Int::select(is_zero, pole, z)];
+        G::pack::<L>(G::representative::<L>(point))
     }
 }
 
@@ -450,6 +490,11 @@ impl Formula for BestFit {
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         Cartesian::<Unorm<8>>::decode(code)
     }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        Cartesian::<Unorm<8>>::canonical::<L>(code)
+    }
 }
 
 /// Three `f32`, bit for bit.
@@ -469,5 +514,9 @@ impl Formula for Floats {
     #[inline(always)]
     fn decode<L: Lane>(code: [L::Int; 3]) -> [L; 3] {
         code.each(L::from_bits)
+    }
+    #[inline(always)]
+    fn canonical<L: Lane>(code: [L::Int; 3]) -> [L::Int; 3] {
+        code
     }
 }

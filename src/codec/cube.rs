@@ -193,6 +193,12 @@ impl<W: Spacing, const BITS: u32> Formula for Cube<W, BITS> {
         let (point, axis) = Self::unpack::<L>(code);
         Self::vector::<L>(turn_back(point, by_axis::<L>(axis)))
     }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        let (point, axis) = Self::unpack::<L>(code);
+        Self::pack::<L>(turn_back(point, by_axis::<L>(axis)))
+    }
 }
 
 impl<W: Spacing, const BITS: u32> Symmetric for Cube<W, BITS> {
@@ -332,6 +338,12 @@ impl<const BITS: u32> Formula for AngularCube<BITS> {
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         Self::CELLS.decode(code.low(BITS))
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        let (cell, face) = Self::CELLS.unpack::<L>(code.low(BITS));
+        Self::CELLS.pack::<L>(cell, face)
     }
 }
 

@@ -24,8 +24,9 @@
 //! ```
 //!
 //! Canonical: a point of the equator belongs to the upper hemisphere; one that stands in both
-//! squares, as eight do in plain eqdist20 and 24, to its own; a pole in a corner of plain eqarea is
-//! the one with u > 0 and v > 0. Of the axes, +-X survive exactly, and +-Z where they are a corner.
+//! squares, as eight do in plain eqdist20 and 24, to its own, and so do the few of the plain 32-bit
+//! formats whose vectors in f32 are the same; a pole in a corner of plain eqarea is the one with u > 0
+//! and v > 0. Of the axes, +-X survive exactly, and +-Z where they are a corner.
 //!
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 //! 2014; concentric: Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997;
@@ -64,10 +65,10 @@ pub(crate) trait Projection: 'static {
     /// x^2 + y^2 may be up to 2.
     fn from_disk<L: Lane>(point: OnDisk<L>) -> [L; 3];
     /// Whether (u, v) / m, outside the disk, stands for the same direction as a point inside that of
-    /// the other hemisphere.
+    /// the other hemisphere; and that point.
     #[inline(always)]
-    fn is_double<L: Lane>([u, _]: [L::Int; 2], _m: i32) -> L::Mask {
-        u.lt(u)
+    fn double<L: Lane>(outer: [L::Int; 2], _m: i32) -> (L::Mask, [L::Int; 2]) {
+        (outer[0].lt(outer[0]), outer)
     }
 }
 
@@ -170,18 +171,17 @@ impl Projection for EqDist {
     /// (u, v) at the distance r is the direction of (2 m - r) / r times (u, v): an integer point if r
     /// is an integer and divides the product.
     #[inline(always)]
-    fn is_double<L: Lane>(outer: [L::Int; 2], m: i32) -> L::Mask {
+    fn double<L: Lane>(outer: [L::Int; 2], m: i32) -> (L::Mask, [L::Int; 2]) {
         let [u, v] = outer;
         let rr = u * u + v * v;
         let r = sqrt(L::from_int(rr)).round_int();
         let ratio = L::from_int(L::Int::splat(2 * m) - r) / L::from_int(r.max(L::Int::splat(1)));
-        let inner = outer.each(|c| {
-            let inner = (L::from_int(c) * ratio).round_int();
-            (inner, (inner * r).eq(c * (L::Int::splat(2 * m) - r)))
-        });
+        let inner = outer.each(|c| (L::from_int(c) * ratio).round_int());
+        let [u_whole, v_whole] =
+            [0, 1].each(|i: usize| (inner[i] * r).eq(outer[i] * (L::Int::splat(2 * m) - r)));
         // A column's u is as odd as m.
-        let column = (inner[0].0 - L::Int::splat(m)).low(1).eq(L::Int::splat(0));
-        (r * r).eq(rr) & L::Int::splat(m).lt(r) & inner[0].1 & inner[1].1 & column
+        let column = (inner[0] - L::Int::splat(m)).low(1).eq(L::Int::splat(0));
+        ((r * r).eq(rr) & L::Int::splat(m).lt(r) & u_whole & v_whole & column, inner)
     }
 }
 
@@ -320,6 +320,38 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
         [L::Int::select(upper, column, -column), pole(v)]
     }
 
+    /// Whether a point past the equator also stands in the chart of its own hemisphere; and the
+    /// column and row there.
+    #[inline(always)]
+    fn double<L: Lane>(point: &Point<L>, m: i32) -> (L::Mask, [L::Int; 2]) {
+        let max = L::Int::splat(m);
+        let u = point.column + point.column - max;
+        let (is_double, [u, row]) = P::double::<L>([u, point.row], m);
+        (is_double, [(u + max).sar(1), row])
+    }
+
+    /// The point in the chart of its own hemisphere, of one past the equator that also stands there
+    /// or, in `f32`, has the very vector of one that does.
+    #[inline(always)]
+    fn in_own_chart<L: Lane>(point: Point<L>, m: i32) -> Point<L> {
+        let (is_double, double) = Self::double(&point, m);
+        let v = Self::vector(&point, m);
+        let place = Self::params(v, false, m).0.each(|p| p.round_int());
+        let near = Point::<L>::clamped(place[0], place[1], !point.lower, L::Int::splat(m));
+        let [x, y, z] = Self::vector(&near, m);
+        let same = |a: L, b: L| a.to_bits().eq(b.to_bits());
+        let coincides = same(x, v[0]) & same(y, v[1]) & same(z, v[2]);
+        let pick = |double, near, own| {
+            L::Int::select(is_double, double, L::Int::select(coincides, near, own))
+        };
+        let moves = is_double | coincides;
+        Point {
+            column: pick(double[0], near.column, point.column),
+            row: pick(double[1], near.row, point.row),
+            lower: moves & !point.lower | !moves & point.lower,
+        }
+    }
+
     #[inline(always)]
     fn vector<L: Lane>(point: &Point<L>, m: i32) -> [L; 3] {
         let u = point.column + point.column - L::Int::splat(m);
@@ -331,10 +363,20 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
     #[inline(never)]
     fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L::Int; 2] {
         let v = unit(v);
-        let mut search = Search::<P, S, L> { closest: Closest::to_unit(v), m, chart: PhantomData };
         let lower = v[2].lt(L::zero());
         let always = L::zero().le(L::zero());
         let place = Self::params(v, false, m).0;
+        // What was decoded finds its own code at once.
+        let mut own = Search::<P, S, L>::to(v, m);
+        own.consider(always, place.each(|p| p.round_int()), lower);
+        if S::CORNERS {
+            let past = Self::params(v, true, m).0;
+            own.consider(always, past.each(|p| p.round_int()), !lower);
+        }
+        if own.closest.is_exact() {
+            return own.params();
+        }
+        let mut search = Search::<P, S, L>::to(v, m);
         search.window(always, place, lower);
         if S::SHEARED {
             search.diagonals(v, place, lower);
@@ -342,8 +384,7 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
         if S::CORNERS {
             search.outside(v, !lower);
         }
-        let code = search.closest.code();
-        [code.sar(16), code.sign_extend(16)]
+        search.params()
     }
 }
 
@@ -369,10 +410,21 @@ struct Search<P, S, L: Lane> {
 
 impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
     #[inline(always)]
+    fn to(v: [L; 3], m: i32) -> Self {
+        Search { closest: Closest::to_unit(v), m, chart: PhantomData }
+    }
+
+    /// The canonical parameters of the nearest.
+    #[inline(always)]
+    fn params(self) -> [L::Int; 2] {
+        let code = self.closest.code();
+        [code.sar(16), code.sign_extend(16)]
+    }
+
+    #[inline(always)]
     fn consider(&mut self, counts: L::Mask, place: [L::Int; 2], lower: L::Mask) {
         let point = Point::<L>::clamped(place[0], place[1], lower, L::Int::splat(self.m));
-        let u = point.column + point.column - L::Int::splat(self.m);
-        let double = P::is_double::<L>([u, point.row], self.m);
+        let double = Chart::<P, S>::double(&point, self.m).0;
         let counts = if S::CORNERS { counts & !double } else { counts };
         let [column, row] = Chart::<P, S>::snorms::<L>(&point, self.m);
         let code = column.shl(16) | row.low(16);
@@ -412,8 +464,10 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
             chord_squared(Chart::<P, S>::vector(&Point { column, row, lower }, m), v)
         };
         for beside in -3..=3 {
-            let mut at = [column.max(zero).min(last), row + L::Int::splat(beside)];
-            at[1] = at[1].max(-last).min(last);
+            let row = row + L::Int::splat(beside);
+            // A diagonal that would begin outside the square begins where it leaves it.
+            let outside = (row.abs() - last + L::Int::splat(1)).sar(1).max(zero);
+            let mut at = [column.max(zero).min(last) - step[0] * outside, row - step[1] * outside];
             let mut least = distance(at);
             for length in [64, 32, 16, 8, 4, 2, 2, 1, 1] {
                 for length in [length, -length] {
@@ -427,6 +481,11 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
                 }
             }
             self.consider(near, at, lower);
+            // Along a diagonal the distance has one minimum inside the square at most, and perhaps
+            // another at the border.
+            let across = L::Int::select(step[0].lt(zero), at[0], last - at[0]);
+            let room = across.min((last - at[1].abs()).sar(1));
+            self.consider(near, [0, 1].each(|i: usize| at[i] + step[i] * room), lower);
         }
     }
 
@@ -480,6 +539,12 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
 
 impl<P: Projection, S: Stretch, const BITS: u32> Disk<P, S, BITS> {
     const M: i32 = snorm_max(BITS / 2);
+
+    #[inline(always)]
+    fn point<L: Lane>(code: L::Int) -> Point<L> {
+        let [column, row] = unpack_snorm2::<BITS, L>(code);
+        Point { column: column.abs(), row, lower: column.lt(L::Int::splat(0)) }
+    }
 }
 
 impl<P: Projection, S: Stretch, const BITS: u32> Formula for Disk<P, S, BITS> {
@@ -501,9 +566,14 @@ impl<P: Projection, S: Stretch, const BITS: u32> Formula for Disk<P, S, BITS> {
 
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        let [column, row] = unpack_snorm2::<BITS, L>(code);
-        let lower = column.lt(L::Int::splat(0));
-        Chart::<P, S>::vector(&Point { column: column.abs(), row, lower }, Self::M)
+        Chart::<P, S>::vector(&Self::point::<L>(code), Self::M)
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        let point = Self::point::<L>(code);
+        let point = if S::CORNERS { Chart::<P, S>::in_own_chart(point, Self::M) } else { point };
+        pack_snorm2::<BITS, L>(Chart::<P, S>::snorms(&point, Self::M))
     }
 }
 

@@ -56,6 +56,11 @@ impl<const BITS: u32> Formula for HemiOct<BITS> {
         let p = [u + w, u - w, z + z];
         math::normalize(p.each(|c| L::from_int(c) * L::splat(0.5 / Self::M as f32)))
     }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        pack_snorm2::<BITS, L>(unpack_snorm2::<BITS, L>(code))
+    }
 }
 
 impl<const BITS: u32> Symmetric for HemiOct<BITS> {

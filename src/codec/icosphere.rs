@@ -25,6 +25,7 @@
 
 use crate::formula::{Formula, One};
 use crate::lane::{Each, Lane, LaneInt};
+use crate::math::{chord_squared, normalize};
 
 /// The 162 vertices.
 pub(crate) struct Icosphere;
@@ -139,28 +140,33 @@ impl Formula for Icosphere {
 
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
-        let [x, y, z] = v.each(|c| c.abs());
+        let target = normalize(v.each(|c| c.abs()));
         let negative =
             v.each(|c| L::Int::select(c.lt(L::zero()), L::Int::splat(1), L::Int::splat(0)));
-        let mut greatest = -L::splat(1.0);
+        let mut least = L::splat(4.0);
         let mut code = L::Int::splat(0);
         for (corner, point) in CORNERS.iter().zip(&POINTS) {
-            let [px, py, pz] = point.each(|c| L::splat(c));
-            let dot = x * px + y * py + z * pz;
+            // Half way between points f32 tells distances apart better than cosines.
+            let distance = chord_squared(point.each(|c| L::splat(c)), target);
             let add = |i: usize, signs: L::Int| {
                 if corner.point[i] > 0.0 { signs + signs + negative[i] } else { signs }
             };
             let signs = add(0, add(1, add(2, L::Int::splat(0))));
-            let closer = greatest.lt(dot);
+            let closer = distance.lt(least);
             code = L::Int::select(closer, signs + L::Int::splat(corner.code as i32), code);
-            greatest = L::select(closer, dot, greatest);
+            least = L::select(closer, distance, least);
         }
         code
     }
 
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        let index = code.low(8).min(L::Int::splat(VERTICES as i32 - 1));
+        let index = Self::canonical::<L>(code);
         [&TABLE[0], &TABLE[1], &TABLE[2]].each(|bits| L::from_bits(L::gather(bits, index)))
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        code.low(8).min(L::Int::splat(VERTICES as i32 - 1))
     }
 }

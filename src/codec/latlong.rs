@@ -107,6 +107,13 @@ impl<P: Parallels> Formula for LatLong<P> {
         let (_, count) = P::band::<L>(parallel);
         Self::point(parallel, wrap::<L>(k, count), count)
     }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        let (parallel, k) = P::find::<L>(code);
+        let (begin, count) = P::band::<L>(parallel);
+        begin + wrap::<L>(k, count)
+    }
 }
 
 impl<const BITS: u32> Even<BITS> {

@@ -78,6 +78,12 @@ impl<const BITS: u32> Formula for Oct<BITS> {
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         unfold::<L>(unpack_snorm2::<BITS, L>(code), Self::M)
     }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        let point = plus_on_border::<L>(unpack_snorm2::<BITS, L>(code), Self::M);
+        pack_snorm2::<BITS, L>(point)
+    }
 }
 
 impl<const BITS: u32> Symmetric for Oct<BITS> {
@@ -122,6 +128,14 @@ fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
     math::normalize(p.each(|c| L::from_int(c) * L::splat(1.0 / m as f32)))
 }
 
+/// The canonical one of a point of the square from -m to m and its mirror image on the border.
+#[inline(always)]
+fn plus_on_border<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 2] {
+    let max = L::Int::splat(m);
+    let (au, aw) = (u.abs(), w.abs());
+    [L::Int::select(aw.eq(max), au, u), L::Int::select(au.eq(max), aw, w)]
+}
+
 /// Octahedral in biased unorm, (c + 1) / 2, of `BITS / 2` bits each: the odd numbers from -m to m =
 /// 2^(BITS/2) - 1. It has no zero, so of the axes only -Z, a corner of the square, survives.
 ///
@@ -146,11 +160,9 @@ impl<const BITS: u32> OctUnorm<BITS> {
 
     /// The nearest point of the square, canonical.
     #[inline(always)]
-    fn canonical<L: Lane>(indices: [L::Int; 2]) -> [L::Int; 2] {
+    fn canonical_point<L: Lane>(indices: [L::Int; 2]) -> [L::Int; 2] {
         let max = L::Int::splat(Self::M);
-        let [u, w] = indices.each(|i| (i + i - max).max(-max).min(max));
-        let (au, aw) = (u.abs(), w.abs());
-        [L::Int::select(aw.eq(max), au, u), L::Int::select(au.eq(max), aw, w)]
+        plus_on_border::<L>(indices.each(|i| (i + i - max).max(-max).min(max)), Self::M)
     }
 
     #[inline(always)]
@@ -165,13 +177,13 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
         let indices = Self::params(v).each(|p| p.round_int());
-        Self::pack::<L>(Self::canonical::<L>(indices))
+        Self::pack::<L>(Self::canonical_point::<L>(indices))
     }
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         closest_of_four(v, Self::params(v), |indices| {
-            let point = Self::canonical::<L>(indices);
+            let point = Self::canonical_point::<L>(indices);
             (Self::pack::<L>(point), unfold::<L>(point, Self::M))
         })
     }
@@ -180,6 +192,11 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         let max = L::Int::splat(Self::M);
         unfold::<L>(unpack2::<BITS, L>(code).each(|i| i + i - max), Self::M)
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        Self::pack::<L>(Self::canonical_point::<L>(unpack2::<BITS, L>(code)))
     }
 }
 
@@ -201,7 +218,7 @@ pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
         let mut q = base;
         q[axis] = q[axis] + step;
         let d = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
-        let along = p[0] * d[0] + p[1] * d[1] + p[2] * d[2];
+        let along = math::dot(p, d);
         let off = math::length_squared(d) * pp - along * along;
         (q, off, math::length_squared(q))
     };

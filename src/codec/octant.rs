@@ -34,17 +34,24 @@ impl Octant {
     }
 
     #[inline(always)]
-    fn pack<L: Lane>([i, j]: [L::Int; 2], v: [L; 3]) -> L::Int {
+    fn pack<L: Lane>([i, j]: [L::Int; 2], negative: [L::Mask; 3]) -> L::Int {
         let zero = L::Int::splat(0);
         let k = L::Int::splat(M) - i - j;
-        let sign = |c: L, magnitude: L::Int, bit: u32| {
-            let negative = c.lt(L::zero()) & zero.lt(magnitude);
-            L::Int::select(negative, L::Int::splat(1 << bit), zero)
+        // Zero has no sign.
+        let sign = |negative: L::Mask, magnitude: L::Int, bit: u32| {
+            L::Int::select(negative & zero.lt(magnitude), L::Int::splat(1 << bit), zero)
         };
-        let signs = sign(v[0], i, 15) | sign(v[1], j, 14) | sign(v[2], k, 13);
+        let [x, y, z] = negative;
+        let signs = sign(x, i, 15) | sign(y, j, 14) | sign(z, k, 13);
         let fold = L::Int::splat(63).lt(i);
         let [i, j] = [i, j].each(|c| L::Int::select(fold, L::Int::splat(127) - c, c));
         signs | i.shl(7) | j
+    }
+
+    /// Which of the three sign bits are set.
+    #[inline(always)]
+    fn negative<L: Lane>(code: L::Int) -> [L::Mask; 3] {
+        [15, 14, 13].each(|bit| code.shr(bit).low(1).eq(L::Int::splat(1)))
     }
 
     #[inline(always)]
@@ -65,15 +72,13 @@ impl Formula for Octant {
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
         let [i, j, _] = Self::project(v).each(|c| c.floor().round_int());
-        // Rounding in the projection may carry the sum one above.
-        let j = j.min(L::Int::splat(M) - i);
-        Self::pack::<L>([i, j], v)
+        Self::pack::<L>([i, j], v.each(|c| c.lt(L::zero())))
     }
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         let [i, j, _] = nearest_on_octahedron(Self::project(v), M).each(|c| c.round_int());
-        Self::pack::<L>([i, j], v)
+        Self::pack::<L>([i, j], v.each(|c| c.lt(L::zero())))
     }
 
     #[inline(always)]
@@ -85,6 +90,12 @@ impl Formula for Octant {
         };
         normalize([signed(i, 15), signed(j, 14), signed(k, 13)])
     }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        let [i, j, _] = Self::magnitudes::<L>(code);
+        Self::pack::<L>([i, j], Self::negative::<L>(code))
+    }
 }
 
 impl Symmetric for Octant {
@@ -94,9 +105,7 @@ impl Symmetric for Octant {
     fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
         let zero = L::Int::splat(0);
         let [i, j, k] = Self::magnitudes::<L>(code);
-        let flip = |magnitude: L::Int, bit: u32| {
-            code.shr(bit).low(1).eq(L::Int::splat(1)) & zero.lt(magnitude)
-        };
-        (triangle_index::<L>(i, j), [flip(i, 15), flip(j, 14), flip(k, 13)])
+        let [x, y, z] = Self::negative::<L>(code);
+        (triangle_index::<L>(i, j), [x & zero.lt(i), y & zero.lt(j), z & zero.lt(k)])
     }
 }

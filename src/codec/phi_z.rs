@@ -31,12 +31,11 @@ impl<const BITS: u32> PhiZ<BITS> {
 
     /// The nearest in range, canonical.
     #[inline(always)]
-    fn canonical<L: Lane>([phi, z]: [L::Int; 2]) -> [L::Int; 2] {
+    fn canonical_params<L: Lane>([phi, z]: [L::Int; 2]) -> [L::Int; 2] {
         let (zero, max) = (L::Int::splat(0), L::Int::splat(Self::M));
         let z = z.max(zero).min(max);
-        // The seam: 0 is the same as M.
+        // The seam: 0 is the same as M, and one step below is one step back from M. None is above M.
         let phi = L::Int::select(zero.lt(phi), phi, phi + max);
-        let phi = L::Int::select(max.lt(phi), phi - max, phi);
         let pole = z.eq(zero) | z.eq(max);
         [L::Int::select(pole, L::Int::splat(Self::M / 2 + 1), phi), z]
     }
@@ -60,13 +59,13 @@ impl<const BITS: u32> Formula for PhiZ<BITS> {
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
         let params = Self::params(v).each(|p| p.round_int());
-        pack2::<BITS, L>(Self::canonical::<L>(params))
+        pack2::<BITS, L>(Self::canonical_params::<L>(params))
     }
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         closest_of_four(v, Self::params(v), |params| {
-            let params = Self::canonical::<L>(params);
+            let params = Self::canonical_params::<L>(params);
             (pack2::<BITS, L>(params), Self::vector::<L>(params))
         })
     }
@@ -74,5 +73,10 @@ impl<const BITS: u32> Formula for PhiZ<BITS> {
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         Self::vector::<L>(unpack2::<BITS, L>(code))
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        pack2::<BITS, L>(Self::canonical_params::<L>(unpack2::<BITS, L>(code)))
     }
 }

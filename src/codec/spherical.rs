@@ -36,9 +36,8 @@ impl<const BITS: u32> Spherical<BITS> {
     fn pack<L: Lane>([u, w]: [L::Int; 2]) -> L::Int {
         let max = L::Int::splat(Self::M);
         let pole = u.abs().eq(max);
-        // The seam: -M is +M, and one step beyond either is one step back from the other.
+        // The seam: -M is +M, and one step beyond is one step back from +M. None is above +M.
         let w = L::Int::select((-max).lt(w), w, w + max + max);
-        let w = L::Int::select(max.lt(w), w - max - max, w);
         let w = L::Int::select(pole, L::Int::splat(0), w);
         pack_snorm2::<BITS, L>([u, w])
     }
@@ -68,5 +67,10 @@ impl<const BITS: u32> Formula for Spherical<BITS> {
         let (sin_u, cos_u) = sin_cos_half_turns(L::from_int(u) * L::splat(0.5 * step));
         let (sin_phi, cos_phi) = sin_cos_half_turns(L::from_int(w) * L::splat(step));
         [cos_u * cos_phi, cos_u * sin_phi, -sin_u]
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        Self::pack::<L>(unpack_snorm2::<BITS, L>(code))
     }
 }

@@ -147,9 +147,9 @@ impl<G: Grid> XyOnly<G> {
         (!x.lt(y), x.min(y).min(L::Int::splat(G::DIAGONAL)))
     }
 
-    /// The canonical code of the point: beyond the rim, the larger component is brought back.
+    /// The canonical one of the points that read alike: beyond the rim, the larger component is brought back.
     #[inline(always)]
-    fn canonical<L: Lane>([x, y]: [L::Int; 2]) -> [L::Int; 2] {
+    fn canonical_point<L: Lane>([x, y]: [L::Int; 2]) -> [L::Int; 2] {
         let step = L::Int::splat(G::STEP);
         let beyond = G::height_squared::<L>(x, y).le(L::zero());
         let (x_larger, minor) = Self::minor::<L>([x, y]);
@@ -194,7 +194,7 @@ impl<G: Grid> Formula for XyOnly<G> {
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
         let [x, y, _] = normalize(v);
-        G::pack::<L>(Self::canonical::<L>([G::nearest(x), G::nearest(y)]))
+        G::pack::<L>(Self::canonical_point::<L>([G::nearest(x), G::nearest(y)]))
     }
 
     #[inline(never)]
@@ -215,7 +215,7 @@ impl<G: Grid> Formula for XyOnly<G> {
                         q_index: L::Int| {
             let xy =
                 [L::Int::select(swap, q_index, p_index), L::Int::select(swap, p_index, q_index)];
-            let xy = Self::canonical::<L>(xy.each(|i| i.max(-greatest).min(greatest)));
+            let xy = Self::canonical_point::<L>(xy.each(|i| i.max(-greatest).min(greatest)));
             closest.consider_where(counts, G::pack::<L>(xy), Self::point::<L>(xy));
         };
         let neighbours = |value: L| {
@@ -269,6 +269,11 @@ impl<G: Grid> Formula for XyOnly<G> {
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         Self::point::<L>(G::unpack::<L>(code))
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        G::pack::<L>(Self::canonical_point::<L>(G::unpack::<L>(code)))
     }
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // Every test file is a crate of its own and uses a part of this.
 
+pub mod every_code;
 pub mod oracle;
 pub mod published;
 

@@ -27,6 +27,13 @@ pub trait Representation: Send + Sync {
     /// Total: patterns that no encoder gives read as their neighbours.
     fn unpack(&self, code: u128) -> Params<i64>;
 
+    /// The vectors of the codes from `first` on.
+    fn vectors_from(&self, first: u128, vectors: &mut [[f64; 3]]) {
+        for (code, vector) in (first..).zip(vectors) {
+            *vector = self.vector(self.unpack(code));
+        }
+    }
+
     /// The one tuple that encoders give for its direction.
     fn canonical(&self, params: Params<i64>) -> Params<i64> {
         params
@@ -123,6 +130,11 @@ impl Oracle {
         self.representation.vector(self.representation.unpack(code))
     }
 
+    /// What the codes from `first` on stand for.
+    pub fn decode_from(&self, first: u128, vectors: &mut [[f64; 3]]) {
+        self.representation.vectors_from(first, vectors);
+    }
+
     /// The code that encoders give for what `code` decodes to.
     pub fn canonical(&self, code: u128) -> u128 {
         let params = self.representation.unpack(code);
@@ -174,7 +186,7 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         ("latlong", 16 | 24 | 32) if stem != name => (size, Box::new(LatLongD::new(size))),
         _ if stem != name => return None,
         ("oct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm)))),
-        ("spherical", 1..) => (size, Box::new(Spherical(pair(Kind::Snorm)))),
+        ("spherical", 1..) => (size, Box::new(Spherical::new(pair(Kind::Snorm)))),
         ("HemiOct", 1..) => (size, Box::new(HemiOct(pair(Kind::Snorm)))),
         ("XYOnly", 1..) => (size, Box::new(XyOnly(Component::Unorm(pair(Kind::Unorm))))),
         ("XYOnly32F", 0) => (32, Box::new(XyOnly(Component::Half))),
@@ -194,8 +206,8 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         ("xyz-unorm8x", 3) => (24, Box::new(Unorm(8))),
         ("xyz-unorm16x", 3) => (48, Box::new(Unorm(16))),
         ("CrytekBFN", 24) => (24, Box::new(BestFit(Unorm(8)))),
-        ("phi-z-unorm8x", 2) => (16, Box::new(PhiZ(Pair { bits: 8, kind: Kind::Unorm }))),
-        ("phi-z-unorm16x", 2) => (32, Box::new(PhiZ(Pair { bits: 16, kind: Kind::Unorm }))),
+        ("phi-z-unorm8x", 2) => (16, Box::new(PhiZ::new(8))),
+        ("phi-z-unorm16x", 2) => (32, Box::new(PhiZ::new(16))),
         ("oct-unorm8x", 2) => (16, Box::new(Oct(Pair { bits: 8, kind: Kind::Unorm }))),
         ("oct-unorm16x", 2) => (32, Box::new(Oct(Pair { bits: 16, kind: Kind::Unorm }))),
         (_, 1..) => {
@@ -394,34 +406,66 @@ impl Representation for HemiOct {
     }
 }
 
-struct Spherical(Pair);
+/// A function of an integer parameter, computed once for each value in its range.
+struct Tabulated<T> {
+    least: i64,
+    values: Vec<T>,
+}
+
+impl<T: Copy> Tabulated<T> {
+    fn new((least, greatest): (i64, i64), f: impl Fn(i64) -> T) -> Self {
+        Tabulated { least, values: (least..=greatest).map(f).collect() }
+    }
+
+    fn at(&self, i: i64) -> T {
+        self.values[(i - self.least) as usize]
+    }
+}
+
+type SinCos = Tabulated<(f64, f64)>;
+
+struct Spherical {
+    pair: Pair,
+    theta: SinCos,
+    phi: SinCos,
+}
+
+impl Spherical {
+    fn new(pair: Pair) -> Self {
+        let [range, ..] = pair.range();
+        let part = |p: i64| p as f64 / pair.steps() as f64;
+        Spherical {
+            pair,
+            theta: Tabulated::new(range, |p| ((part(p) + 1.0) * FRAC_PI_2).sin_cos()),
+            phi: Tabulated::new(range, |p| (part(p) * PI).sin_cos()),
+        }
+    }
+}
 
 impl Representation for Spherical {
     fn params(&self, [x, y, z]: [f64; 3]) -> Params<f64> {
         let theta = x.hypot(y).atan2(z);
         let phi = y.atan2(x);
-        [2.0 * theta / PI - 1.0, phi / PI, 0.0].map(|p| p * self.0.steps() as f64)
+        [2.0 * theta / PI - 1.0, phi / PI, 0.0].map(|p| p * self.pair.steps() as f64)
     }
     fn params_error(&self) -> f64 {
-        steps_error(self.0.steps())
+        steps_error(self.pair.steps())
     }
     fn range(&self) -> Params<(i64, i64)> {
-        self.0.range()
+        self.pair.range()
     }
-    fn vector(&self, params: Params<i64>) -> [f64; 3] {
-        let [u, w, _] = params.map(|p| p as f64 / self.0.steps() as f64);
-        let (theta, phi) = ((u + 1.0) * FRAC_PI_2, w * PI);
-        [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+    fn vector(&self, [u, w, _]: Params<i64>) -> [f64; 3] {
+        on_sphere(self.theta.at(u), self.phi.at(w))
     }
     fn pack(&self, params: Params<i64>) -> u128 {
-        self.0.pack(params)
+        self.pair.pack(params)
     }
     fn unpack(&self, code: u128) -> Params<i64> {
-        self.0.unpack(code)
+        self.pair.unpack(code)
     }
     /// A pole has azimuth 0, and the azimuth of -X is positive.
     fn canonical(&self, [u, w, _]: Params<i64>) -> Params<i64> {
-        let greatest = self.0.steps();
+        let greatest = self.pair.steps();
         let w = if u.abs() == greatest {
             0
         } else if w == -greatest {
@@ -881,32 +925,41 @@ impl Representation for BestFit {
 }
 
 /// Azimuth and z.
-struct PhiZ(Pair);
+struct PhiZ {
+    pair: Pair,
+    phi: SinCos,
+}
+
+impl PhiZ {
+    fn new(bits: u32) -> Self {
+        let pair = Pair { bits, kind: Kind::Unorm };
+        PhiZ { pair, phi: Tabulated::new(pair.range()[0], |p| (pair.value(p) * PI).sin_cos()) }
+    }
+}
 
 impl Representation for PhiZ {
     fn params(&self, [x, y, z]: [f64; 3]) -> Params<f64> {
-        [self.0.position(y.atan2(x) / PI), self.0.position(z), 0.0]
+        [self.pair.position(y.atan2(x) / PI), self.pair.position(z), 0.0]
     }
     fn params_error(&self) -> f64 {
-        steps_error(self.0.steps())
+        steps_error(self.pair.steps())
     }
     fn range(&self) -> Params<(i64, i64)> {
-        self.0.range()
+        self.pair.range()
     }
     fn vector(&self, params: Params<i64>) -> [f64; 3] {
-        let [phi, z] = [params[0], params[1]].map(|p| self.0.value(p));
-        let r = (1.0 - z * z).sqrt();
-        [r * (phi * PI).cos(), r * (phi * PI).sin(), z]
+        let z = self.pair.value(params[1]);
+        on_sphere(((1.0 - z * z).sqrt(), z), self.phi.at(params[0]))
     }
     fn pack(&self, params: Params<i64>) -> u128 {
-        self.0.pack(params)
+        self.pair.pack(params)
     }
     fn unpack(&self, code: u128) -> Params<i64> {
-        self.0.unpack(code)
+        self.pair.unpack(code)
     }
     /// The azimuth of a pole is the first above 0; that of -X is positive.
     fn canonical(&self, [phi, z, _]: Params<i64>) -> Params<i64> {
-        let steps = self.0.steps();
+        let steps = self.pair.steps();
         let phi = if z == 0 || z == steps {
             (steps + 1) / 2
         } else if phi == 0 {
@@ -927,11 +980,20 @@ impl Representation for PhiZ {
 struct LatLong {
     bits: u32,
     count: i64,
+    theta: SinCos,
+    phi: SinCos,
 }
 
 impl LatLong {
     fn new(bits: u32) -> Self {
-        LatLong { bits, count: (1 << (bits / 2)) - 1 }
+        let count = (1 << (bits / 2)) - 1;
+        let part = |p: i64, of: i64| p as f64 / of as f64;
+        LatLong {
+            bits,
+            count,
+            theta: Tabulated::new((0, count - 1), |p| (part(p, count - 1) * PI).sin_cos()),
+            phi: Tabulated::new((0, count), |p| (part(p, count) * TAU).sin_cos()),
+        }
     }
 }
 
@@ -946,9 +1008,9 @@ fn colatitude([x, y, z]: [f64; 3]) -> f64 {
     x.hypot(y).atan2(z) / PI
 }
 
-fn on_sphere(colatitude: f64, turns: f64) -> [f64; 3] {
-    let (theta, phi) = (colatitude * PI, turns * TAU);
-    [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()]
+/// By sine and cosine of the polar angle and of the azimuth.
+fn on_sphere(theta: (f64, f64), phi: (f64, f64)) -> [f64; 3] {
+    [theta.0 * phi.1, theta.0 * phi.0, theta.1]
 }
 
 impl Representation for LatLong {
@@ -963,7 +1025,7 @@ impl Representation for LatLong {
         [(0, self.count - 1), (0, self.count), (0, 0)]
     }
     fn vector(&self, [parallel, point, _]: Params<i64>) -> [f64; 3] {
-        on_sphere(parallel as f64 / (self.count - 1) as f64, point as f64 / self.count as f64)
+        on_sphere(self.theta.at(parallel), self.phi.at(point))
     }
     fn pack(&self, [parallel, point, _]: Params<i64>) -> u128 {
         (parallel * self.count + point) as u128
@@ -989,7 +1051,12 @@ struct LatLongD {
     bits: u32,
     /// The index of the first point of each parallel, and at the end how many points there are.
     begins: Vec<i64>,
+    /// The parallel of every 2^[`STRIDE`]-th index.
+    parallels: Vec<usize>,
+    theta: SinCos,
 }
+
+const STRIDE: u32 = 12;
 
 impl LatLongD {
     fn new(bits: u32) -> Self {
@@ -1021,7 +1088,16 @@ impl LatLongD {
             begins.push(begins[parallel as usize] + points(parallel));
         }
         assert_eq!(begins[parallels as usize], total, "latlong{bits}D");
-        LatLongD { bits, begins }
+        let mut parallel = 0;
+        let parallels = (0..total).step_by(1 << STRIDE).map(|index| {
+            while begins[parallel + 1] <= index {
+                parallel += 1;
+            }
+            parallel
+        });
+        let theta = |p: i64| (p as f64 / last as f64 * PI).sin_cos();
+        let (parallels, theta) = (parallels.collect(), Tabulated::new((0, last), theta));
+        LatLongD { bits, begins, parallels, theta }
     }
 
     fn last(&self) -> i64 {
@@ -1055,7 +1131,8 @@ impl Representation for LatLongD {
         all
     }
     fn vector(&self, [parallel, point, _]: Params<i64>) -> [f64; 3] {
-        on_sphere(parallel as f64 / self.last() as f64, point as f64 / self.count(parallel) as f64)
+        let phi = point as f64 / self.count(parallel) as f64 * TAU;
+        on_sphere(self.theta.at(parallel), phi.sin_cos())
     }
     fn pack(&self, [parallel, point, _]: Params<i64>) -> u128 {
         (self.begins[parallel as usize] + point) as u128
@@ -1063,7 +1140,10 @@ impl Representation for LatLongD {
     /// Indices beyond the last point read as the south pole.
     fn unpack(&self, code: u128) -> Params<i64> {
         let index = unsigned_field(code, 0, self.bits).min(self.begins[self.begins.len() - 1] - 1);
-        let parallel = self.begins.partition_point(|&begin| begin <= index) - 1;
+        let mut parallel = self.parallels[(index >> STRIDE) as usize];
+        while self.begins[parallel + 1] <= index {
+            parallel += 1;
+        }
         [parallel as i64, index - self.begins[parallel], 0]
     }
     fn nearby(&self, v: [f64; 3], _: f64) -> Vec<Params<i64>> {
@@ -1107,11 +1187,17 @@ fn face_number(axis: usize, main: f64) -> f64 {
 struct Cube {
     side: Pair,
     warped: bool,
+    places: Tabulated<f64>,
 }
 
 impl Cube {
     fn new(bits: u32, warped: bool) -> Self {
-        Cube { side: Pair { bits: (bits - 3) / 2, kind: Kind::Snorm }, warped }
+        let side = Pair { bits: (bits - 3) / 2, kind: Kind::Snorm };
+        let place = |p: i64| {
+            let t = side.value(p);
+            if warped { (t * FRAC_PI_4).tan() } else { t }
+        };
+        Cube { side, warped, places: Tabulated::new(side.range()[0], place) }
     }
 }
 
@@ -1134,11 +1220,7 @@ impl Representation for Cube {
         [2, 2, 0]
     }
     fn vector(&self, [a, b, face]: Params<i64>) -> [f64; 3] {
-        let place = |p: i64| {
-            let t = self.side.value(p);
-            if self.warped { (t * FRAC_PI_4).tan() } else { t }
-        };
-        on_face(face, [place(a), place(b)])
+        on_face(face, [self.places.at(a), self.places.at(b)])
     }
     fn pack(&self, [a, b, face]: Params<i64>) -> u128 {
         let field = |p: i64| p as u128 & ((1 << self.side.bits) - 1);
@@ -1168,6 +1250,7 @@ impl Representation for Cube {
 struct AngularCube {
     bits: u32,
     cells: i64,
+    places: Tabulated<f64>,
 }
 
 impl AngularCube {
@@ -1176,7 +1259,8 @@ impl AngularCube {
         let fits = |s: i64| 6 * s * s <= 1 << bits;
         let near = (2f64.powi(bits as i32) / 6.0).sqrt() as i64;
         let cells = (near - 1..=near + 1).rev().find(|&s| fits(s)).unwrap();
-        AngularCube { bits, cells }
+        let centre = |i: i64| (FRAC_PI_4 * ((2 * i + 1 - cells) as f64 / cells as f64)).tan();
+        AngularCube { bits, cells, places: Tabulated::new((0, cells - 1), centre) }
     }
 }
 
@@ -1198,9 +1282,7 @@ impl Representation for AngularCube {
         [2, 2, 0]
     }
     fn vector(&self, [i, j, face]: Params<i64>) -> [f64; 3] {
-        let place =
-            |i: i64| (FRAC_PI_4 * ((2 * i + 1 - self.cells) as f64 / self.cells as f64)).tan();
-        on_face(face, [place(i), place(j)])
+        on_face(face, [self.places.at(i), self.places.at(j)])
     }
     fn pack(&self, [i, j, face]: Params<i64>) -> u128 {
         ((i * self.cells + j) * 6 + face) as u128
@@ -1434,19 +1516,28 @@ impl Representation for Disk {
         let (x, y) = match self.stretch {
             Stretch::Plain => (u, v),
             Stretch::Concentric if u.abs() >= v.abs() => {
-                let t = FRAC_PI_4 * v / u;
-                (u * t.cos(), u * t.sin())
+                let (sin, cos) = (FRAC_PI_4 * v / u).sin_cos();
+                (u * cos, u * sin)
             }
             Stretch::Concentric => {
-                let t = FRAC_PI_4 * u / v;
-                (v * t.sin(), v * t.cos())
+                let (sin, cos) = (FRAC_PI_4 * u / v).sin_cos();
+                (v * sin, v * cos)
             }
             Stretch::Ellipse => (u * (1.0 - v * v / 2.0).sqrt(), v * (1.0 - u * u / 2.0).sqrt()),
         };
-        let r = x.hypot(y);
-        let (sin, cos) = self.polar_angle(r).sin_cos();
+        // The cosine of the angle from the pole, and its sine over the radius.
+        let rr = x * x + y * y;
+        let (cos, k) = match self.projection {
+            Projection::Stereo => ((1.0 - rr) / (1.0 + rr), 2.0 / (1.0 + rr)),
+            Projection::EqArea => (1.0 - rr, (2.0 - rr).max(0.0).sqrt()),
+            Projection::EqDist => {
+                let r = rr.sqrt();
+                let (sin, cos) = (r * FRAC_PI_2).sin_cos();
+                (cos, sin / r)
+            }
+        };
         let z = if params[2] == 1 { -cos } else { cos };
-        [x / r * sin, y / r * sin, z]
+        [x * k, y * k, z]
     }
     /// Column 0 has no sign of its own: it is the upper hemisphere's.
     fn pack(&self, [column, row, lower]: Params<i64>) -> u128 {
