@@ -1,0 +1,151 @@
+//! The digests of what stands beside the codecs: scalars, angles, packing and tables, encoding and decoding.
+
+use core::array;
+
+use bytemuck::Zeroable;
+use unitpack::decode_table::{OctantTable, SignSymmetric};
+use unitpack::low_dimensions::Angle;
+use unitpack::packing::{
+    dense_len, pack_dense, pack_snorm12x2, pack_snorm12x2_slice, unpack_dense, unpack_snorm12x2,
+    unpack_snorm12x2_slice,
+};
+use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
+use unitpack::{AngularCube16, CodeInt, HemiOct16, Oct8, SoaMut, WarpedCube16, XyOnly16};
+
+use crate::LEN;
+use crate::digest::Digest;
+use crate::inputs::Random;
+use crate::platform::line;
+
+pub fn report() {
+    let mut row = Row::new();
+    row.scalar::<Unorm<2>>().scalar::<Unorm<8>>().scalar::<Unorm<16>>().scalar::<Unorm<24>>();
+    row.print("unorm");
+    let mut row = Row::new();
+    row.scalar::<Snorm<2>>().scalar::<Snorm<8>>().scalar::<Snorm<16>>().scalar::<Snorm<24>>();
+    row.print("snorm");
+    let mut row = Row::new();
+    row.scalar::<BiasedUnorm<2>>().scalar::<BiasedUnorm<8>>();
+    row.scalar::<BiasedUnorm<16>>().scalar::<BiasedUnorm<24>>();
+    row.print("biased-unorm");
+    let mut row = Row::new();
+    row.scalar::<Fixed<2>>().scalar::<Fixed<8>>().scalar::<Fixed<16>>().scalar::<Fixed<24>>();
+    row.print("fixed");
+    let mut row = Row::new();
+    row.angle::<1>().angle::<2>().angle::<8>().angle::<13>().angle::<24>();
+    row.print("angle");
+    let mut row = Row::new();
+    row.snorm12x2();
+    row.print("snorm12x2");
+    let mut row = Row::new();
+    row.dense::<7, u8>().dense::<12, u16>().dense::<22, u32>();
+    row.print("dense");
+    let mut row = Row::new();
+    row.octant_table::<Oct8>().octant_table::<HemiOct16>().octant_table::<XyOnly16>();
+    row.octant_table::<WarpedCube16>().octant_table::<AngularCube16>();
+    // Tables only decode.
+    line(format_args!("{:20} {:16} {:016x}", "octant-table", "", row.decode.finish()));
+}
+
+/// The digests of one line. Every method adds some inputs.
+struct Row {
+    random: Random,
+    encode: Digest,
+    decode: Digest,
+}
+
+impl Row {
+    fn new() -> Self {
+        Row { random: Random::new(), encode: Digest::new(), decode: Digest::new() }
+    }
+
+    fn print(self, name: &str) {
+        let (encode, decode) = (self.encode.finish(), self.decode.finish());
+        line(format_args!("{name:20} {encode:016x} {decode:016x}"));
+    }
+
+    fn numbers(&mut self) -> [f32; LEN] {
+        array::from_fn(|_| self.random.number())
+    }
+
+    fn words(&mut self) -> [u32; LEN] {
+        array::from_fn(|_| self.random.bits())
+    }
+
+    fn scalar<S: Scalar>(&mut self) -> &mut Self {
+        let values = self.numbers();
+        let mut codes = [0; LEN];
+        S::encode_slice::<u32>(&values, &mut codes).expect("lengths that fit");
+        self.encode.words(codes);
+        self.encode.words(values.map(S::encode));
+
+        let codes = self.words();
+        let mut values = [0.0; LEN];
+        S::decode_slice(&codes, &mut values).expect("lengths that fit");
+        self.decode.floats(&values);
+        self.decode.floats(&codes.map(S::decode));
+        self
+    }
+
+    fn angle<const BITS: u32>(&mut self) -> &mut Self {
+        let vectors: [[f32; 2]; LEN] = array::from_fn(|_| self.random.pair());
+        let [x, y] = [0, 1].map(|c: usize| vectors.map(|v| v[c]));
+        let mut codes = [0; LEN];
+        Angle::<BITS>::encode_soa::<u32>(&x, &y, &mut codes).expect("lengths that fit");
+        self.encode.words(codes);
+        self.encode.words(vectors.map(Angle::<BITS>::encode));
+
+        let codes = self.words();
+        let [mut x, mut y] = [[0.0; LEN]; 2];
+        Angle::<BITS>::decode_soa(&codes, &mut x, &mut y).expect("lengths that fit");
+        self.decode.floats(&x);
+        self.decode.floats(&y);
+        self.decode.floats(codes.map(Angle::<BITS>::decode).as_flattened());
+        self
+    }
+
+    fn snorm12x2(&mut self) {
+        let pairs: [[f32; 2]; LEN] = array::from_fn(|_| self.random.pair());
+        let mut texels = [[0; 3]; LEN];
+        pack_snorm12x2_slice(&pairs, &mut texels).expect("lengths that fit");
+        self.encode.bytes(texels.as_flattened());
+        self.encode.bytes(pairs.map(pack_snorm12x2).as_flattened());
+
+        self.random.codes(3, texels.as_flattened_mut());
+        let mut pairs = [[0.0; 2]; LEN];
+        unpack_snorm12x2_slice(&texels, &mut pairs).expect("lengths that fit");
+        self.decode.floats(pairs.as_flattened());
+        self.decode.floats(texels.map(unpack_snorm12x2).as_flattened());
+    }
+
+    fn dense<const BITS: u32, C: CodeInt>(&mut self) -> &mut Self {
+        let mut codes = self.words().map(C::truncate);
+        let mut bytes = [0; 4 * LEN];
+        let bytes = &mut bytes[..dense_len(BITS, LEN)];
+        pack_dense::<BITS, C>(&codes, bytes).expect("lengths that fit");
+        self.encode.bytes(bytes);
+
+        self.random.codes(1, bytes);
+        unpack_dense::<BITS, C>(bytes, &mut codes).expect("lengths that fit");
+        self.decode.words(codes.map(C::into));
+        self
+    }
+
+    fn octant_table<C: SignSymmetric>(&mut self) -> &mut Self {
+        let mut table = [[0.0; 3]; 1 << 14];
+        let table = &mut table[..OctantTable::<C>::LEN];
+        let table = OctantTable::<C>::fill(table).expect("a length that fits");
+        let mut codes = [C::Code::zeroed(); LEN];
+        for code in &mut codes {
+            *code = C::encode([(); 3].map(|()| self.random.number()));
+        }
+        let [mut x, mut y, mut z] = [[0.0; LEN]; 3];
+        let vectors = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+        table.decode_soa(&codes, vectors).expect("lengths that fit");
+        for component in [&x, &y, &z] {
+            self.decode.floats(component);
+        }
+        self.decode.floats(codes.map(|code| table.decode(code)).as_flattened());
+        self
+    }
+}

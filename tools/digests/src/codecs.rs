@@ -1,0 +1,133 @@
+//! The digests of the codecs: `encode`, `encode_precise` and `decode`.
+
+use core::array;
+
+use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
+use unitpack::{Codec, Format, LengthMismatch, Soa, SoaMut, Visitor};
+
+use crate::LEN;
+use crate::digest::Digest;
+use crate::inputs::{CODE, Random};
+use crate::platform::line;
+
+/// How many times `LEN` vectors each codec encodes, and codes it decodes. An emulated processor takes a quarter of
+/// a minute for all.
+const BLOCKS: usize = 24;
+
+/// The same for `encode_precise` where it searches lengths, with a thousand times the work: as many seconds again.
+const SLOW_BLOCKS: usize = 2;
+
+pub fn report() {
+    for &format in Format::ALL {
+        let one = format.visit(One);
+        let slow = matches!(format, Format::Snorm16x3 | Format::Float16x3 | Format::XyzUnorm16x3);
+        let encode = encode(format, &one, BLOCKS, Format::encode, one.encode);
+        let precise = self::encode(
+            format,
+            &one,
+            if slow { SLOW_BLOCKS } else { BLOCKS },
+            Format::encode_precise,
+            one.encode_precise,
+        );
+        let decode = decode(format, &one);
+        line(format_args!("{:20} {encode:016x} {precise:016x} {decode:016x}", format.name()));
+    }
+}
+
+/// A codec's functions of one vector, over the little-endian bytes of a code.
+struct Singles {
+    encode: fn([f32; 3]) -> [u8; CODE],
+    encode_precise: fn([f32; 3]) -> [u8; CODE],
+    decode: fn(&[u8]) -> [f32; 3],
+}
+
+/// Gives a codec's [`Singles`].
+struct One;
+
+impl Visitor for One {
+    type Output = Singles;
+    fn visit<C: Codec>(self) -> Singles {
+        Singles {
+            encode: |v| to_bytes::<C>(C::encode(v)),
+            encode_precise: |v| to_bytes::<C>(C::encode_precise(v)),
+            decode: |bytes| {
+                let mut code = C::Code::zeroed();
+                bytes_of_mut(&mut code).copy_from_slice(bytes);
+                swap_to_little_endian::<C>(bytes_of_mut(&mut code));
+                C::decode(code)
+            },
+        }
+    }
+}
+
+fn to_bytes<C: Codec>(code: C::Code) -> [u8; CODE] {
+    let mut bytes = [0; CODE];
+    let own = &mut bytes[..size_of::<C::Code>()];
+    own.copy_from_slice(bytes_of(&code));
+    swap_to_little_endian::<C>(own);
+    bytes
+}
+
+/// A code is one integer or an array of them, as large as its alignment.
+fn swap_to_little_endian<C: Codec>(bytes: &mut [u8]) {
+    if cfg!(target_endian = "big") {
+        bytes.chunks_exact_mut(align_of::<C::Code>()).for_each(<[u8]>::reverse);
+    }
+}
+
+fn encode(
+    format: Format,
+    one: &Singles,
+    blocks: usize,
+    batch: fn(Format, Soa<'_>, &mut [u8]) -> Result<(), LengthMismatch>,
+    single: fn([f32; 3]) -> [u8; CODE],
+) -> u64 {
+    let size = format.code_size();
+    let mut random = Random::new();
+    let mut digest = Digest::new();
+    let mut codes = [0; CODE * LEN];
+    let codes = &mut codes[..size * LEN];
+    for _ in 0..blocks {
+        let vectors: [[f32; 3]; LEN] =
+            array::from_fn(|_| random.vector(size, format.bits(), one.decode));
+        let [x, y, z] = [0, 1, 2].map(|c: usize| vectors.map(|v| v[c]));
+        batch(format, Soa { x: &x, y: &y, z: &z }, codes).expect("lengths that fit");
+        digest_codes(format, codes, &mut digest);
+        for v in vectors {
+            digest_codes(format, &mut single(v)[..size], &mut digest);
+        }
+    }
+    digest.finish()
+}
+
+/// Codes of float32x3 are floats, with NaN among them.
+fn digest_codes(format: Format, codes: &mut [u8], digest: &mut Digest) {
+    if format == Format::Float32x3 {
+        for bytes in codes.chunks_exact(4) {
+            digest.floats(&[f32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])]);
+        }
+    } else {
+        digest.bytes(codes);
+    }
+}
+
+fn decode(format: Format, one: &Singles) -> u64 {
+    let size = format.code_size();
+    let mut random = Random::new();
+    let mut digest = Digest::new();
+    let mut codes = [0; CODE * LEN];
+    let codes = &mut codes[..size * LEN];
+    let [mut x, mut y, mut z] = [[0.0; LEN]; 3];
+    for _ in 0..BLOCKS {
+        random.codes(size, codes);
+        let vectors = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+        format.decode(codes, vectors).expect("lengths that fit");
+        for component in [&x, &y, &z] {
+            digest.floats(component);
+        }
+        for code in codes.chunks_exact(size) {
+            digest.floats(&(one.decode)(code));
+        }
+    }
+    digest.finish()
+}

@@ -1,0 +1,21 @@
+//! Prints a digest of what each codec, and each of the building blocks beside them, makes of the same inputs.
+//! Every computer, instruction set, virtual machine and microcontroller prints the same lines,
+//! those of `digests.txt`: one result everywhere. `run` compares them.
+//!
+//! Without `std`, so that the same program runs on bare metal and builds in seconds for any target.
+#![no_std]
+#![no_main]
+
+mod building_blocks;
+mod codecs;
+mod digest;
+mod inputs;
+mod platform;
+
+/// Eight blocks of eight lanes, and seven lanes alone. The crate takes at most 64 on the way to bytes.
+const LEN: usize = 71;
+
+fn report() {
+    codecs::report();
+    building_blocks::report();
+}
