@@ -1,0 +1,133 @@
+//! Kills mutants of what is chosen at run time. Slow to build, since every codec is in it.
+
+mod shared;
+
+use shared::{Random, vectors};
+use unitpack::decode_table::FormatTable;
+use unitpack::*;
+
+struct Direct<'a>(&'a [[f32; 3]]);
+
+impl Visitor for Direct<'_> {
+    type Output = [Vec<u8>; 2];
+
+    fn visit<C: Codec>(self) -> [Vec<u8>; 2] {
+        // Bytes at no good alignment are what is to be compared, so these are written one by one.
+        let bytes = |code: C::Code| bytemuck::bytes_of(&code).to_vec();
+        [C::encode, C::encode_precise]
+            .map(|encode| self.0.iter().flat_map(|&v| bytes(encode(v))).collect())
+    }
+}
+
+#[test]
+fn bytes_are_the_codes() {
+    // More than one detour over the stack.
+    let vectors: Vec<[f32; 3]> = vectors().into_iter().take(67).collect();
+    let [x, y, z] = [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect::<Vec<f32>>());
+    let v = Soa { x: &x, y: &y, z: &z };
+    // One for each type of code.
+    for format in [
+        Format::Oct8,
+        Format::Oct16,
+        Format::Oct24,
+        Format::Oct32,
+        Format::Float32x3,
+        Format::AngularCube15,
+    ] {
+        let len = vectors.len() * format.code_size();
+        let [fast, precise] = format.visit(Direct(&vectors));
+        for offset in 0..4 {
+            let mut words = vec![0u32; len / 4 + 2];
+            let bytes = &mut bytemuck::cast_slice_mut(&mut words)[offset..][..len];
+            format.encode(v, bytes).unwrap();
+            assert_eq!(bytes, fast, "{format}");
+            format.encode_precise(v, bytes).unwrap();
+            assert_eq!(bytes, precise, "{format}");
+
+            let [mut x, mut y, mut z] = [0; 3].map(|_| vec![9.0; vectors.len()]);
+            format.decode(bytes, SoaMut { x: &mut x, y: &mut y, z: &mut z }).unwrap();
+            let [mut x1, mut y1, mut z1] = [0; 3].map(|_| vec![9.0; vectors.len()]);
+            for (i, code) in bytes.chunks(format.code_size()).enumerate() {
+                let [x, y, z] = [&mut x1, &mut y1, &mut z1].map(|c| &mut c[i..=i]);
+                format.decode(code, SoaMut { x, y, z }).unwrap();
+            }
+            let bits =
+                |v: [Vec<f32>; 3]| v.map(|c| c.iter().map(|c| c.to_bits()).collect::<Vec<_>>());
+            assert_eq!(bits([x, y, z]), bits([x1, y1, z1]), "{format}");
+        }
+
+        // Too few or too many of any.
+        let size = format.code_size();
+        for [nx, ny, nz, bytes] in
+            [[8, 9, 9, 9 * size], [9, 8, 9, 9 * size], [9, 9, 8, 9 * size], [9, 9, 9, 9 * size - 1]]
+        {
+            let error = LengthMismatch::Bytes { x: nx, y: ny, z: nz, bytes, code_size: size };
+            let mut buffer = vec![0; bytes];
+            let v = Soa { x: &x[..nx], y: &y[..ny], z: &z[..nz] };
+            assert_eq!(format.encode(v, &mut buffer), Err(error));
+            assert_eq!(format.encode_precise(v, &mut buffer), Err(error));
+            let [mut x, mut y, mut z] = [nx, ny, nz].map(|n| vec![0.0; n]);
+            let v = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+            assert_eq!(format.decode(&buffer, v), Err(error));
+            assert_eq!(
+                error.to_string(),
+                format!(
+                    "lengths do not fit: x {nx}, y {ny}, z {nz}, bytes {bytes} at {size} a code"
+                )
+            );
+        }
+    }
+}
+
+#[test]
+fn tables_of_formats_are_exact() {
+    for format in [Format::Oct8, Format::AngularCube5, Format::Oct10, Format::AngularCube13] {
+        let len = FormatTable::len_for(format).unwrap();
+        assert_eq!(len, 1 << format.bits());
+        for vectors in [len - 1, len + 1] {
+            let error = LengthMismatch::Table { vectors, entries: Some(len) };
+            let outcome = FormatTable::fill(format, &mut vec![[0.0; 3]; vectors]).map(drop);
+            assert_eq!(outcome, Err(error));
+        }
+        let mut entries = vec![[0.0; 3]; len];
+        let table = FormatTable::fill(format, &mut entries).unwrap();
+        assert_eq!(table.format(), format);
+        let mut random = Random(9);
+        let codes: Vec<u8> =
+            (0..200 * format.code_size()).map(|_| (random.bits() >> 24) as u8).collect();
+        let [mut x, mut y, mut z] = [0; 3].map(|_| [0.0; 200]);
+        format.decode(&codes, SoaMut { x: &mut x, y: &mut y, z: &mut z }).unwrap();
+        let [mut x1, mut y1, mut z1] = [0; 3].map(|_| [0.0; 200]);
+        table.decode_bytes(&codes, SoaMut { x: &mut x1, y: &mut y1, z: &mut z1 }).unwrap();
+        assert_eq!([x, y, z], [x1, y1, z1], "{format}");
+        for (i, code) in codes.chunks(format.code_size()).enumerate() {
+            let code = code.iter().rev().fold(0, |all, &byte| all << 8 | u16::from(byte));
+            assert_eq!(table.decode(code), [x[i], y[i], z[i]], "{format}");
+        }
+        let v = SoaMut { x: &mut x1[1..], y: &mut y1, z: &mut z1 };
+        assert!(table.decode_bytes(&codes, v).is_err());
+    }
+    assert_eq!(FormatTable::len_for(Format::Oct16), Some(65536));
+    assert_eq!(FormatTable::len_for(Format::AngularCube17), None);
+    let error = FormatTable::fill(Format::Oct32, &mut []).unwrap_err();
+    assert_eq!(error, LengthMismatch::Table { vectors: 0, entries: None });
+    assert_eq!(
+        error.to_string(),
+        "vectors 0, but formats of more than 16 bits have no decode table"
+    );
+}
+
+#[test]
+fn names_are_read_back() {
+    for &format in Format::ALL {
+        assert_eq!(format.name().to_ascii_uppercase().parse(), Ok(format));
+        assert_eq!(Format::from_name(format.name()), Some(format));
+        assert_eq!(format!("{format:>20}"), format!("{:>20}", format.name()));
+    }
+    assert_eq!(Format::from_name("oct17"), None);
+    let error = "oct17".parse::<Format>().unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "no format has this name; the names are those of Format::ALL, such as \"oct16\""
+    );
+}

@@ -1,0 +1,306 @@
+//! What the programs for mutation testing share: digests of what codecs make of a few hundred
+//! vectors and codes, each chosen to go where random ones do not.
+
+#![allow(dead_code)] // Every program uses a part of this.
+
+use bytemuck::{Zeroable, bytes_of, bytes_of_mut, cast_slice, cast_slice_mut, pod_read_unaligned};
+use unitpack::decode_table::{OctantTable, SignSymmetric};
+use unitpack::{Codec, Soa, SoaMut};
+
+type Vector = [f32; 3];
+
+/// A codec behind pointers, so that all that is compiled for each codec is its own code.
+#[derive(Clone, Copy)]
+pub struct Functions {
+    size: usize,
+    encode: [fn(Soa<'_>, &mut [u8]); 2],
+    encode_one: [fn(Vector, &mut [u8]); 2],
+    decode: fn(&[u8], SoaMut<'_>),
+    decode_one: fn(&[u8]) -> Vector,
+    canonical: fn(&mut [u8]) -> bool,
+}
+
+impl Functions {
+    pub fn of<C: Codec>() -> Self {
+        Functions {
+            size: size_of::<C::Code>(),
+            encode: [
+                |v, codes| C::encode_soa(v, cast_slice_mut(codes)).unwrap(),
+                |v, codes| C::encode_soa_precise(v, cast_slice_mut(codes)).unwrap(),
+            ],
+            encode_one: [
+                |v, code| code.copy_from_slice(bytes_of(&C::encode(v))),
+                |v, code| code.copy_from_slice(bytes_of(&C::encode_precise(v))),
+            ],
+            decode: |codes, v| C::decode_soa(cast_slice(codes), v).unwrap(),
+            decode_one: |code| C::decode(pod_read_unaligned(code)),
+            canonical: |code| {
+                let given: C::Code = pod_read_unaligned(code);
+                code.copy_from_slice(bytes_of(&C::canonical(given)));
+                C::is_canonical(given)
+            },
+        }
+    }
+
+    /// Encodes in lanes and, every eighth, alone: both must agree.
+    fn encode(&self, effort: usize, vectors: &[Vector]) -> Vec<u8> {
+        let [x, y, z] = columns(vectors);
+        let mut codes = aligned(vectors.len() * self.size);
+        let codes = &mut cast_slice_mut(&mut codes)[..vectors.len() * self.size];
+        self.encode[effort](Soa { x: &x, y: &y, z: &z }, codes);
+        for (&v, code) in vectors.iter().zip(codes.chunks(self.size)).step_by(8) {
+            let mut one = [0; 12];
+            let one = &mut one[..self.size];
+            self.encode_one[effort](v, one);
+            assert_eq!(one, code, "{v:?}");
+        }
+        codes.to_vec()
+    }
+
+    /// Decodes in lanes and, every eighth, alone: both must agree.
+    fn decode(&self, bytes: &[u8]) -> Vec<Vector> {
+        let count = bytes.len() / self.size;
+        let mut codes = aligned(bytes.len());
+        let codes: &mut [u8] = &mut cast_slice_mut(&mut codes)[..count * self.size];
+        codes.copy_from_slice(&bytes[..count * self.size]);
+        let [mut x, mut y, mut z] = [0; 3].map(|_| vec![0.0f32; count]);
+        (self.decode)(codes, SoaMut { x: &mut x, y: &mut y, z: &mut z });
+        let vectors: Vec<Vector> = (0..count).map(|i| [x[i], y[i], z[i]]).collect();
+        for (v, code) in vectors.iter().zip(codes.chunks(self.size)).step_by(8) {
+            assert_eq!(v.map(f32::to_bits), (self.decode_one)(code).map(f32::to_bits), "{code:x?}");
+        }
+        vectors
+    }
+
+    /// The canonical codes.
+    fn canonical(&self, bytes: &[u8]) -> Vec<u8> {
+        let mut all = Vec::new();
+        for code in bytes.chunks_exact(self.size) {
+            let mut canonical = code.to_vec();
+            let is_canonical = (self.canonical)(&mut canonical);
+            assert_eq!(is_canonical, canonical == code, "{code:x?}");
+            all.extend(canonical);
+        }
+        all
+    }
+
+    /// Of `decode`, `canonical`, `encode` and `encode_precise`. The last, which is slow, takes one
+    /// vector of so many. Each is shown to `check` at once, since most mutants fail at the first.
+    fn digests(&self, every: usize, mut check: impl FnMut(usize, u64)) {
+        let decoded = self.decode(&codes());
+        check(0, digest(decoded.iter().flatten().flat_map(|c| c.to_bits().to_le_bytes())));
+        let codes: Vec<u8> = codes().chunks(12 * every).flat_map(|c| c[..12].to_vec()).collect();
+        check(1, digest(self.canonical(&codes)));
+        // Beside the fixed vectors, points of the format, and what lies between two of them.
+        let mut vectors = vectors();
+        let points = decoded.iter().filter(|v| v.iter().all(|c| c.is_finite()));
+        let points: Vec<Vector> = points.copied().collect();
+        for pair in points.chunks_exact(2).step_by(8) {
+            vectors.push(pair[0]);
+            vectors.push([0, 1, 2].map(|i| pair[0][i] + pair[1][i]));
+        }
+        check(2, digest(self.encode(0, &vectors)));
+        let few: Vec<Vector> = vectors.iter().copied().step_by(every).collect();
+        check(3, digest(self.encode(1, &few)));
+    }
+}
+
+/// Memory for so many bytes of codes, at an address that suits every type of code.
+fn aligned(bytes: usize) -> Vec<u32> {
+    vec![0; bytes.div_ceil(4)]
+}
+
+fn columns(vectors: &[Vector]) -> [Vec<f32>; 3] {
+    [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect())
+}
+
+/// FNV-1a, 64 bits.
+pub fn digest(bytes: impl IntoIterator<Item = u8>) -> u64 {
+    bytes.into_iter().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3)
+    })
+}
+
+/// A linear congruential generator.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn bits(&mut self) -> u32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (self.0 >> 32) as u32
+    }
+
+    /// In [-1, 1).
+    pub fn signed(&mut self) -> f32 {
+        (self.bits() >> 8) as f32 / 8_388_608.0 - 1.0
+    }
+
+    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.bits() as usize % from.len()]
+    }
+}
+
+/// Vectors of every kind, in an order that brings different kinds into one block of lanes.
+pub fn vectors() -> Vec<Vector> {
+    let mut random = Random(1);
+    let mut vectors = Vec::new();
+    // The axes, and ratios so simple that they fall on edges, corners and diagonals.
+    for axis in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+        vectors.extend([axis, axis.map(|c| -c)]);
+    }
+    for _ in 0..96 {
+        vectors.push([0; 3].map(|_| random.pick(&[0.0, -0.0, 1.0, -1.0, 1.0, -1.0, 0.5, -2.0])));
+    }
+    // What is no direction, or hardly one.
+    const ODD: [f32; 14] = [
+        0.0,
+        -0.0,
+        1.0,
+        -1.0,
+        1e-45,
+        -1e-39,
+        1e-33,
+        1e-20,
+        -3e-13,
+        1e13,
+        -1e30,
+        f32::MAX,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+    ];
+    for i in 0..96 {
+        let v = [0; 3].map(|_| random.pick(&ODD));
+        vectors.push(if i % 16 == 0 { [v[0], f32::NAN, v[2]] } else { v });
+    }
+    vectors.extend([[0.0; 3], [-0.0, 0.0, -0.0], [f32::NAN; 3]]);
+    // Near ties of one component or two.
+    const STEPS: [f32; 14] = [
+        1.0, 3.0, 7.0, 15.0, 31.0, 127.0, 255.0, 511.0, 1024.0, 2047.0, 2048.0, 4096.0, 8192.0,
+        32767.0,
+    ];
+    for i in 0..160 {
+        let steps = random.pick(&STEPS);
+        let mut tie = || ((random.signed() * steps).floor() + 0.5) / steps;
+        let (a, b) = (tie(), tie());
+        vectors.push(match i % 4 {
+            0 => [a, b, 1.0 - a.abs() - b.abs()],
+            1 => [a, b, (1.0 - a * a - b * b).max(0.0).sqrt()],
+            2 => [b, -1.0, a],
+            _ => [1.0, a, b],
+        });
+    }
+    // Near a pole, the equator and the planes between.
+    for _ in 0..96 {
+        let mut v = [0; 3].map(|_| random.signed());
+        let i = random.bits() as usize % 3;
+        v[i] *= random.pick(&[1e-3, 1e-5, 1e-7, 100.0, 1e4]);
+        if random.bits() >> 31 == 1 {
+            v[(i + 1) % 3] = random.pick(&[1.0, -1.0]) * v[(i + 2) % 3];
+        }
+        vectors.push(v);
+    }
+    // Where the charts of two hemispheres meet, and near the diagonals there.
+    for i in 0..256 {
+        let near = random.pick(&[0.1, 0.03, 1e-2, 1e-3, 1e-4, 1e-6]);
+        let mut v = [0; 2].map(|_| random.pick(&[1.0, -1.0]) * (1.0 + near * random.signed()));
+        if i % 4 == 0 {
+            v[0] *= random.signed();
+        }
+        vectors.push([v[0], v[1], near * random.signed()]);
+    }
+    vectors.extend((0..128).map(|_| [0; 3].map(|_| random.signed())));
+    // Not a whole number of blocks.
+    if vectors.len() % 8 == 0 {
+        vectors.push([0.3, -0.5, 0.7]);
+    }
+    for i in (1..vectors.len()).rev() {
+        vectors.swap(i, random.bits() as usize % (i + 1));
+    }
+    vectors
+}
+
+/// Bytes of codes: the same byte throughout, then any, and near bytes at which fields turn over.
+fn codes() -> Vec<u8> {
+    let mut random = Random(2);
+    let mut codes = Vec::new();
+    for byte in [0x00, 0xFF, 0x80, 0x7F, 0x01, 0x55, 0xAA, 0xC3] {
+        codes.extend([byte; 24]);
+    }
+    codes.extend((0..2304).map(|_| (random.bits() >> 24) as u8));
+    const TURNS: [u8; 10] = [0x00, 0x01, 0x3C, 0x7C, 0x7F, 0x80, 0x81, 0xBC, 0xFE, 0xFF];
+    codes.extend((0..768).map(|_| random.pick(&TURNS)));
+    codes
+}
+
+/// What is digested, in this order.
+const OPERATIONS: [&str; 4] = ["decode", "canonical", "encode", "encode_precise"];
+
+/// Compares with the pinned digests. With PIN in the environment prints those of now, ready to
+/// paste.
+pub fn compare(pinned: &[(&str, Functions, usize, [u64; 4])]) {
+    let pin = std::env::var_os("PIN").is_some();
+    for &(name, functions, every, pinned) in pinned {
+        let mut now = [0; 4];
+        functions.digests(every, |i, digest| {
+            assert!(pin || digest == pinned[i], "{name}: {}", OPERATIONS[i]);
+            now[i] = digest;
+        });
+        if pin {
+            let [a, b, c, d] = now;
+            println!("    {name} / {every} = [{a:#018X}, {b:#018X}, {c:#018X}, {d:#018X}],");
+        }
+    }
+}
+
+/// A test of the digests of some codecs. The precise encoder takes one vector of so many.
+#[macro_export]
+macro_rules! digests {
+    ($($codec:ident / $every:literal = $digests:expr,)*) => {
+        #[test]
+        fn digests_have_not_changed() {
+            shared::compare(&[$((
+                stringify!($codec),
+                shared::Functions::of::<unitpack::$codec>(),
+                $every,
+                $digests,
+            ),)*]);
+        }
+    };
+}
+
+/// Every code, read through a table of an octant, is what the decoder gives.
+pub fn octant_table_is_exact<C: SignSymmetric>() {
+    let mut vectors = vec![[0.0; 3]; C::ENTRIES];
+    let table = OctantTable::<C>::fill(&mut vectors).unwrap();
+    let codes: Vec<C::Code> = (0..1 << C::FORMAT.bits()).step_by(7).map(code::<C>).collect();
+    let [mut x, mut y, mut z] = [0; 3].map(|_| vec![0.0f32; codes.len()]);
+    table.decode_soa(&codes, SoaMut { x: &mut x, y: &mut y, z: &mut z }).unwrap();
+    for (i, &code) in codes.iter().enumerate() {
+        let v = C::decode(code).map(f32::to_bits);
+        assert_eq!([x[i], y[i], z[i]].map(f32::to_bits), v, "{code:x?}");
+        assert_eq!(table.decode(code).map(f32::to_bits), v, "{code:x?}");
+    }
+}
+
+/// The code whose integer is `index`.
+pub fn code<C: Codec>(index: u32) -> C::Code {
+    let mut code = C::Code::zeroed();
+    let bytes = bytes_of_mut(&mut code);
+    bytes.copy_from_slice(&index.to_le_bytes()[..bytes.len()]);
+    code
+}
+
+/// Compares the decoded vectors of some codes with a digest. With PIN in the environment prints that
+/// of now.
+pub fn compare_decoded<C: Codec>(name: &str, codes: &[u32], pinned: u64) {
+    let codes: Vec<C::Code> = codes.iter().map(|&index| code::<C>(index)).collect();
+    let [mut x, mut y, mut z] = [0; 3].map(|_| vec![0.0f32; codes.len()]);
+    C::decode_soa(&codes, SoaMut { x: &mut x, y: &mut y, z: &mut z }).unwrap();
+    let bits = x.iter().chain(&y).chain(&z).flat_map(|c| c.to_bits().to_le_bytes());
+    let now = digest(bits);
+    if std::env::var_os("PIN").is_some() {
+        println!("        ({name:?}, {now:#018X}),");
+    } else {
+        assert_eq!(now, pinned, "{name}");
+    }
+}
