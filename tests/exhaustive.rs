@@ -60,6 +60,25 @@ impl Visitor for Canonical<'_> {
     }
 }
 
+/// Past the equator, a point of a plain chart may have the very `f32` vector of one of the other
+/// hemisphere's: that is canonical.
+#[test]
+fn codes_that_coincide_in_f32_have_one_canonical_code() {
+    let pairs = [
+        (Format::Stereo32, 0x9081_006D, 0xC020_E46C),
+        (Format::EqArea32, 0x60B0_00A6, 0x3410_E21D),
+        (Format::EqDist32, 0x68F0_09AB, 0x48E5_E5BE),
+    ];
+    for (format, past, own) in pairs {
+        let vectors = decode(format, &[past, own]);
+        assert_eq!(vectors[0].map(f32::to_bits), vectors[1].map(f32::to_bits), "{format}");
+        assert_eq!(encode_precise(format, &vectors), [own, own], "{format}");
+        assert_eq!(format.visit(Canonical(&[past, own])), [own, own], "{format}");
+        // Not so in exact arithmetic.
+        assert_eq!(oracle(format.name()).unwrap().canonical(past), past, "{format}");
+    }
+}
+
 /// In formats that are finer than `f32`, what decodes alike is one direction, and one code is
 /// canonical: a second time round, nothing moves.
 fn check_wide(format: Format, codes: &[u128]) -> Result<(), String> {
