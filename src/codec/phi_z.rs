@@ -49,7 +49,8 @@ impl<const BITS: u32> PhiZ<BITS> {
         // 1 - z^2, without cancellation.
         let rr = (L::from_int(max - z) * step) * (L::from_int(max + z) * step);
         let r = sqrt(rr);
-        [r * cos, r * sin, L::from_int(z) * step]
+        // The roundings of root, sine and cosine together may put the length off by more than 2.5e-7.
+        normalize([r * cos, r * sin, L::from_int(z) * step])
     }
 }
 
