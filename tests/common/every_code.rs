@@ -117,21 +117,20 @@ impl Check<'_> {
             // |w|^2 - 1 = (|w| - 1) (|w| + 1)
             ((dot(w, w) - 1.0).abs() * 0.5, dot(sine, sine) + facing)
         };
+        // What is no number is wrong too.
+        let is_wrong = |(length, sine): (f64, f64)| {
+            !(length <= LENGTH_ERROR && sine <= DECODE_ERROR * DECODE_ERROR)
+        };
         let (mut length, mut sine) = (0.0, 0.0);
         let mut wrong = false;
         for i in 0..v.x.len() {
             let (l, s) = off(i);
-            // What is no number is wrong too.
-            wrong |= !(l <= LENGTH_ERROR && s <= DECODE_ERROR * DECODE_ERROR);
+            wrong |= is_wrong((l, s));
             length = if l > length { l } else { length };
             sine = if s > sine { s } else { sine };
         }
         if wrong {
-            let is_wrong = |&i: &usize| {
-                let (l, s) = off(i);
-                !(l <= LENGTH_ERROR && s <= DECODE_ERROR * DECODE_ERROR)
-            };
-            let i = (0..v.x.len()).find(is_wrong).unwrap();
+            let i = (0..v.x.len()).find(|&i| is_wrong(off(i))).unwrap();
             let (code, w, (l, s)) = (first + i as u64, [v.x[i], v.y[i], v.z[i]], off(i));
             return Err(format!(
                 "{format}: {code:#x} is {w:?}, off by {l:.2e} in length and {:.2e} rad from {:?}",
