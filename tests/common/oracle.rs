@@ -1323,9 +1323,16 @@ impl Representation for Octant {
     }
     fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
         let [i, j, signs] = self.params(v);
-        let ([i, j], signs) = ([i, j].map(|p| rounding(p, self.params_error())), signs as i64);
-        let all = window(self.range(), [i, j, (signs, signs)]);
-        all.into_iter().map(|[i, j, signs]| [i, j.min(OCTANT - i), signs]).collect()
+        let [i, j] = [i, j].map(|p| rounding(p, self.params_error()));
+        // What f32 does not hold beside the largest component may read as zero, which has no sign.
+        let largest = v.iter().fold(0.0, |m: f64, c| m.max(c.abs()));
+        let certain = v
+            .iter()
+            .fold(0, |s, &c| 2 * s + i64::from(c < -largest * f64::from(f32::MIN_POSITIVE)));
+        let signs = signs as i64;
+        let any_of = |s: &i64| s & certain == certain && s & signs == *s;
+        let all = (0..8).filter(any_of).flat_map(|s| window(self.range(), [i, j, (s, s)]));
+        all.map(|[i, j, signs]| [i, j.min(OCTANT - i), signs]).collect()
     }
     fn vector(&self, [i, j, signs]: Params<i64>) -> [f64; 3] {
         let magnitudes = [i, j, OCTANT - i - j];
