@@ -56,6 +56,12 @@ pub(crate) trait Grid: 'static {
     fn value<L: Lane>(i: L::Int, step: L) -> L {
         L::from_int(i) * step
     }
+    /// How far `x` is from the nearest value, but for what f32 rounds off.
+    #[inline(always)]
+    fn off<L: Lane>(x: L, steps: L, step: L) -> L {
+        let places = x * steps;
+        (places - places.round()).abs() * step
+    }
     /// At most half the distance between the two values around `x`.
     #[inline(always)]
     fn half_gap<L: Lane>(_: L, step: L) -> L {
@@ -153,6 +159,11 @@ macro_rules! unorm_grid {
                 (x * half + half).round_int().shl(1) - L::Int::splat(Self::M)
             }
             #[inline(always)]
+            fn off<L: Lane>(x: L, steps: L, step: L) -> L {
+                let places = (x * steps - L::splat(1.0)) * L::splat(0.5);
+                (places - places.round()).abs() * (step + step)
+            }
+            #[inline(always)]
             fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L> {
                 $pack(v.each(|i| Self::index::<L>(i)))
             }
@@ -191,6 +202,10 @@ impl Grid for Halves {
     #[inline(always)]
     fn value<L: Lane>(i: L::Int, _: L) -> L {
         half::value(i)
+    }
+    #[inline(always)]
+    fn off<L: Lane>(x: L, _: L, _: L) -> L {
+        (half::value::<L>(half::nearest(x)) - x).abs()
     }
     #[inline(always)]
     fn half_gap<L: Lane>(x: L, _: L) -> L {
@@ -306,6 +321,8 @@ struct Search<L: Lane> {
     slope: [L; 3],
     /// From one grid point to the next on the axis of the largest component.
     step: L,
+    /// Of the other two axes the slope, the steps, and one step.
+    others: [[L; 3]; 2],
 }
 
 impl<L: Lane> Search<L> {
@@ -323,11 +340,18 @@ impl<L: Lane> Search<L> {
         let [x, y, z] = target.each(|c| c.abs());
         let [step_x, step_y, step_z] = G::STEPS.each(|s| L::splat(1.0 / s));
         let largest = x.greater(y).greater(z);
-        let on = |c: L, step: L, other: L| L::select(largest.le(c), step, other);
+        let (is_x, is_y) = (largest.le(x), largest.le(y));
+        let slope = target.each(|c| c / largest);
+        let [on_x, on_y, on_z] = [0, 1, 2]
+            .each(|i: usize| [slope[i], L::splat(G::STEPS[i]), L::splat(1.0 / G::STEPS[i])]);
+        let pick = |mask, yes: [L; 3], no: [L; 3]| {
+            [0, 1, 2].each(|i: usize| L::select(mask, yes[i], no[i]))
+        };
         Search {
             target,
-            slope: target.each(|c| c / largest),
-            step: on(x, step_x, on(y, step_y, step_z)),
+            slope,
+            step: L::select(is_x, step_x, L::select(is_y, step_y, step_z)),
+            others: [pick(is_x, on_y, on_x), pick(is_x | is_y, on_z, on_y)],
         }
     }
 
@@ -346,11 +370,25 @@ impl<L: Lane> Search<L> {
             let sine = sqrt(distance) * L::splat(1.01) + L::splat(6e-7);
             sine * sine
         };
+        // How far off an axis across, over the length on the largest one's, a point can be that is nearer:
+        // not more than stretch times the sine, but for the length of the offset itself.
+        let reach = |within: L| {
+            let sine = sqrt(within);
+            let room = L::splat(1.0) - sine * L::splat(2.0);
+            let reach = stretch * sine * L::splat(1.01) / room.greater(L::splat(0.1));
+            L::select(room.lt(L::splat(0.1)), L::splat(f32::INFINITY), reach)
+        };
         let mut within = limit(distance);
+        let mut farthest_off = reach(within);
         let mut n = G::LENGTHS;
         while n > 0 {
             let length = G::length(L::splat(n as f32), self.step);
             n -= 1;
+            let [a, b] =
+                self.others.each(|[slope, steps, step]| G::off(slope * length, steps, step));
+            if !a.greater(b).le(farthest_off * length).any() {
+                continue;
+            }
             let ideal = self.slope.each(|s| s * length);
             // Near the diagonals and in a coarse grid the rounded corner of the cell is not always
             // the nearest: components may go the other way, if half a gap is near enough.
@@ -380,6 +418,7 @@ impl<L: Lane> Search<L> {
                     off_unit = L::select(better, off, off_unit);
                     found = [0, 1, 2].each(|i: usize| L::Int::select(better, point[i], found[i]));
                     within = limit(distance);
+                    farthest_off = reach(within);
                 }
             };
             let rounded = Cartesian::<G>::nearest(ideal);
