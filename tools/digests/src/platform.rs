@@ -45,6 +45,15 @@ mod imp {
     /// The precompiled `core` names it; with `panic = "abort"` nothing calls it.
     #[unsafe(no_mangle)]
     extern "C" fn rust_eh_personality() {}
+
+    /// So do the unwinding tables of 32-bit Arm.
+    #[cfg(target_arch = "arm")]
+    mod unwinding {
+        #[unsafe(no_mangle)]
+        extern "C" fn __aeabi_unwind_cpp_pr0() {}
+        #[unsafe(no_mangle)]
+        extern "C" fn __aeabi_unwind_cpp_pr1() {}
+    }
 }
 
 /// WebAssembly: `run-wasm.mjs` offers `write` and calls `_start`.
