@@ -347,10 +347,8 @@ impl<L: Lane> Search<L> {
             sine * sine
         };
         let mut within = limit(distance);
-        let mut n = G::LENGTHS;
-        while n > 0 {
+        for n in (1..=G::LENGTHS).rev() {
             let length = G::length(L::splat(n as f32), self.step);
-            n -= 1;
             let ideal = self.slope.each(|s| s * length);
             // Near the diagonals and in a coarse grid the rounded corner of the cell is not always
             // the nearest: components may go the other way, if half a gap is near enough.
