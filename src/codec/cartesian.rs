@@ -75,13 +75,13 @@ pub(crate) trait Grid: 'static {
         Self: Sized;
 }
 
-/// Snorm of `X`, `Y` and `Z` bits, x in the low bits.
+/// Snorm of `X`, `Y` and `Z` bits, x in the low bits. None has more than x.
 pub(crate) struct Snorm<const X: u32, const Y: u32, const Z: u32>;
 
 impl<const X: u32, const Y: u32, const Z: u32> Grid for Snorm<X, Y, Z> {
     type Words = One;
     const STEPS: [f32; 3] = [snorm_max(X) as f32, snorm_max(Y) as f32, snorm_max(Z) as f32];
-    const LENGTHS: i32 = if X > Z { snorm_max(X) } else { snorm_max(Z) };
+    const LENGTHS: i32 = snorm_max(X);
     const DISTINCT: bool = true;
 
     #[inline(always)]

@@ -225,13 +225,14 @@ impl<G: Grid> Formula for XyOnly<G> {
         // y between them.
         let always = L::zero().le(L::zero());
         let to_rim = inv_sqrt((p * p + q * q).greater(L::splat(1e-30)));
+        let [rim_p, rim_q] = [p, q].each(|c| c * to_rim);
         let diagonal = L::Int::splat(G::DIAGONAL);
         let outside = |c: L| L::Int::select(c.lt(L::zero()), -greatest, greatest);
-        for q_index in neighbours(q * to_rim) {
+        for q_index in neighbours(rim_q) {
             let q_index = q_index.max(-diagonal).min(diagonal);
             consider(&mut closest, always, outside(p), q_index);
         }
-        for p_index in neighbours(p * to_rim) {
+        for p_index in neighbours(rim_p) {
             let p_index = p_index.max(-diagonal).min(diagonal);
             consider(&mut closest, always, p_index, outside(q));
         }

@@ -2,6 +2,7 @@
 
 mod shared;
 
+use unitpack::decode_table::SignSymmetric;
 use unitpack::*;
 
 digests! {
@@ -24,6 +25,7 @@ digests! {
 fn octant_tables_are_exact() {
     shared::octant_table_is_exact::<Snorm5x3>();
     shared::octant_table_is_exact::<XyOnly16>();
+    assert_eq!([Snorm5x3::ENTRIES, XyOnly16::ENTRIES], [1 << 12, 1 << 14]);
 }
 
 /// The nearest code of `v`.
@@ -52,6 +54,14 @@ fn nearest_of_hard_vectors() {
     precise::<Float16x3>(
         [-0.37814152, -0.25551438, 0.27150762],
         &[0x67, 0xB9, 0x4D, 0xB7, 0xC2, 0x37],
+    );
+    precise::<Float16x3>(
+        [-1.0005814, -1.0003159, -0.99942344],
+        &[0xA0, 0xB7, 0xA0, 0xB7, 0x9E, 0xB7],
+    );
+    precise::<Float16x3>(
+        [-0.9977981, -0.06632454, 4.9585513e-5],
+        &[0x51, 0xBB, 0xC8, 0xAB, 0xFB, 0x02],
     );
     precise::<XyzUnorm8x3>([-0.57240736, 0.69532585, -5.921365e-10], &[0x19, 0xFC, 0x7F]);
     precise::<XyzUnorm8x3>([-0.99837416, 1.0048618, -0.9931956], &[0x01, 0xFF, 0x02]);
