@@ -81,13 +81,13 @@ pub(crate) trait Grid: 'static {
         Self: Sized;
 }
 
-/// Snorm of `X`, `Y` and `Z` bits, x in the low bits.
+/// Snorm of `X`, `Y` and `Z` bits, x in the low bits. None has more than x.
 pub(crate) struct Snorm<const X: u32, const Y: u32, const Z: u32>;
 
 impl<const X: u32, const Y: u32, const Z: u32> Grid for Snorm<X, Y, Z> {
     type Words = One;
     const STEPS: [f32; 3] = [snorm_max(X) as f32, snorm_max(Y) as f32, snorm_max(Z) as f32];
-    const LENGTHS: i32 = if X > Z { snorm_max(X) } else { snorm_max(Z) };
+    const LENGTHS: i32 = snorm_max(X);
     const DISTINCT: bool = true;
 
     #[inline(always)]
@@ -380,10 +380,8 @@ impl<L: Lane> Search<L> {
         };
         let mut within = limit(distance);
         let mut farthest_off = reach(within);
-        let mut n = G::LENGTHS;
-        while n > 0 {
+        for n in (1..=G::LENGTHS).rev() {
             let length = G::length(L::splat(n as f32), self.step);
-            n -= 1;
             let [a, b] =
                 self.others.each(|[slope, steps, step]| G::off(slope * length, steps, step));
             if !a.greater(b).le(farthest_off * length).any() {

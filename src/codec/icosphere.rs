@@ -85,15 +85,16 @@ const fn corners() -> [Corner; 27] {
     corners
 }
 
-/// Newton's method.
+/// Newton's method, from above until it comes no nearer. For x >= 1.
 const fn root(x: f64) -> f64 {
     let mut y = x;
-    let mut step = 0;
-    while step < 60 {
-        y = 0.5 * (y + x / y);
-        step += 1;
+    loop {
+        let next = 0.5 * (y + x / y);
+        if next >= y {
+            return y;
+        }
+        y = next;
     }
-    y
 }
 
 /// How many mirror images a point of the octant has, itself included.

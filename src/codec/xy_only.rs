@@ -153,13 +153,11 @@ impl<G: Grid> XyOnly<G> {
         let step = L::Int::splat(G::STEP);
         let beyond = G::height_squared::<L>(x, y).le(L::zero());
         let (x_larger, minor) = Self::minor::<L>([x, y]);
-        // The first at or beyond the rim: the nearest to it or a neighbour. One tie with the
-        // smaller goes to x.
+        // The first at or beyond the rim: the nearest to it or, if that is inside, the next. One tie
+        // with the smaller goes to x.
         let near = G::nearest(sqrt(G::rim_squared::<L>(minor)));
-        let inside = |major| L::zero().lt(G::height_squared::<L>(minor, major));
-        let (here, inner) = (inside(near), inside(near - step));
-        let first = L::Int::select(inner, near, near - step);
-        let first = L::Int::select(here, near + step, first);
+        let inside = L::zero().lt(G::height_squared::<L>(minor, near));
+        let first = L::Int::select(inside, near + step, near);
         let first = first.max(L::Int::select(x_larger, minor, minor + step));
         let signed = |magnitude: L::Int, sign: L::Int| {
             L::Int::select(sign.lt(L::Int::splat(0)), -magnitude, magnitude)
@@ -227,26 +225,26 @@ impl<G: Grid> Formula for XyOnly<G> {
         // y between them.
         let always = L::zero().le(L::zero());
         let to_rim = inv_sqrt((p * p + q * q).greater(L::splat(1e-30)));
+        let [rim_p, rim_q] = [p, q].each(|c| c * to_rim);
         let diagonal = L::Int::splat(G::DIAGONAL);
         let outside = |c: L| L::Int::select(c.lt(L::zero()), -greatest, greatest);
-        for q_index in neighbours(q * to_rim) {
+        for q_index in neighbours(rim_q) {
             let q_index = q_index.max(-diagonal).min(diagonal);
             consider(&mut closest, always, outside(p), q_index);
         }
-        for p_index in neighbours(p * to_rim) {
+        for p_index in neighbours(rim_p) {
             let p_index = p_index.max(-diagonal).min(diagonal);
             consider(&mut closest, always, p_index, outside(q));
         }
         // Column after column, to both sides. The middle one may be further than the one on the
         // other side of v.
         let middle = G::nearest(p);
-        let mut offset = L::Int::splat(0);
+        let (mut up, mut down) = (middle, middle);
         let mut open = always;
         while open.any() {
-            let mut any_open = offset.eq(L::Int::splat(0));
-            for side in [offset, -offset] {
-                let column = middle + side;
-                let exists = column.abs().lt(greatest + step);
+            let mut any_open = up.eq(down);
+            for column in [up, down] {
+                let exists = !greatest.lt(column.abs());
                 let column = column.max(-greatest).min(greatest);
                 let column_radius = sqrt(G::rim_squared::<L>(column));
                 // No point of this column is nearer than this.
@@ -261,7 +259,7 @@ impl<G: Grid> Formula for XyOnly<G> {
                 }
             }
             open = open & any_open;
-            offset = offset + step;
+            (up, down) = (up + step, down - step);
         }
         closest.code()
     }

@@ -2,6 +2,8 @@
 
 mod shared;
 
+use unitpack::*;
+
 digests! {
     Snorm5x3 / 1 = [0x8CE6FF55CA54D441, 0xCF160C7A55DD0B5A, 0xA197CC5147D2F6B0, 0x46B2DF321E8AA7BE],
     Snorm8x3 / 4 = [0x00856D33880C3F46, 0xA1714DF07863E6F5, 0xC2E985099FC70458, 0x829D34A6E9D2BA1C],
@@ -20,6 +22,47 @@ digests! {
 
 #[test]
 fn octant_tables_are_exact() {
-    shared::octant_table_is_exact::<unitpack::Snorm5x3>();
-    shared::octant_table_is_exact::<unitpack::XyOnly16>();
+    shared::octant_table_is_exact::<Snorm5x3>();
+    shared::octant_table_is_exact::<XyOnly16>();
+}
+
+/// The nearest code of `v`.
+fn precise<C: Codec>(v: [f32; 3], code: &[u8]) {
+    assert_eq!(bytemuck::bytes_of(&C::encode_precise(v)), code, "{v:?}");
+}
+
+/// Where the nearest code is none that rounding gives, is barely nearer than the next, or has a
+/// length that is no obvious choice.
+#[test]
+fn nearest_of_hard_vectors() {
+    precise::<Snorm5x3>([0.589404, -0.5665983, 0.53191566], &[0x6D, 0x32]);
+    precise::<Snorm5x3>([0.25481176, -0.7010031, -0.72706854], &[0x45, 0x4A]);
+    precise::<Snorm5x3>([-0.92347515, 0.9964549, 0.96284455], &[0xF2, 0x3D]);
+    precise::<Snorm8x3>([0.9927786, -0.9986093, -1.0029315], &[0x7C, 0x83, 0x83]);
+    precise::<Snorm8x3>([-1.9914265, 0.99286306, 1.9990106], &[0x82, 0x3F, 0x7F]);
+    precise::<Snorm11_11_10>([1.0000129, 2.0000827, -1.999952], &[0x00, 0xFA, 0x5F, 0x80]);
+    precise::<Float16x3>(
+        [0.2868867, -0.3754654, -0.38416338],
+        &[0xAB, 0x35, 0x6B, 0xB7, 0x97, 0xB7],
+    );
+    precise::<Float16x3>(
+        [0.56531024, -0.48752224, 1.5816688e-8],
+        &[0x4D, 0x38, 0x6B, 0xB7, 0x01, 0x00],
+    );
+    precise::<Float16x3>(
+        [-0.37814152, -0.25551438, 0.27150762],
+        &[0x67, 0xB9, 0x4D, 0xB7, 0xC2, 0x37],
+    );
+    precise::<Float16x3>(
+        [-1.0005814, -1.0003159, -0.99942344],
+        &[0xA0, 0xB7, 0xA0, 0xB7, 0x9E, 0xB7],
+    );
+    precise::<Float16x3>(
+        [-0.9977981, -0.06632454, 4.9585513e-5],
+        &[0x51, 0xBB, 0xC8, 0xAB, 0xFB, 0x02],
+    );
+    precise::<XyzUnorm8x3>([-0.57240736, 0.69532585, -5.921365e-10], &[0x19, 0xFC, 0x7F]);
+    precise::<XyzUnorm8x3>([-0.99837416, 1.0048618, -0.9931956], &[0x01, 0xFF, 0x02]);
+    precise::<XyOnly32>([0.50143874, -0.35518062, -0.4948815], &[0x74, 0xE8, 0x04, 0x36]);
+    precise::<XyOnly32F>([-0.0055607366, 0.99602944, 0.007958152], &[0xB8, 0x9D, 0x00, 0x3C]);
 }

@@ -20,6 +20,7 @@ digests! {
 #[test]
 fn octant_tables_are_exact() {
     shared::octant_table_is_exact::<unitpack::Cube16>();
+    shared::octant_table_is_exact::<unitpack::AngularCube4>();
     shared::octant_table_is_exact::<unitpack::AngularCube5>();
     shared::octant_table_is_exact::<unitpack::AngularCube8>();
     shared::octant_table_is_exact::<unitpack::AngularCube13>();

@@ -268,8 +268,11 @@ macro_rules! digests {
     };
 }
 
-/// Every code, read through a table of an octant, is what the decoder gives.
+/// Every code, read through a table of an octant, is what the decoder gives, and the table ends at
+/// the last entry that a code has.
 pub fn octant_table_is_exact<C: SignSymmetric>() {
+    let places = (0..1 << C::FORMAT.bits()).filter_map(|index| C::place(code::<C>(index)));
+    assert_eq!(places.max(), Some(C::ENTRIES - 1));
     let mut vectors = vec![[0.0; 3]; C::ENTRIES];
     let table = OctantTable::<C>::fill(&mut vectors).unwrap();
     let codes: Vec<C::Code> = (0..1 << C::FORMAT.bits()).step_by(7).map(code::<C>).collect();
