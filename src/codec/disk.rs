@@ -72,12 +72,19 @@ pub(crate) trait Projection: 'static {
     }
 }
 
+/// `count` integers from `before` below a place, rounded down.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
+    before: i32,
+    count: i32,
+}
+
 /// From the unit disk to the square from -1 to 1.
 pub(crate) trait Stretch: 'static {
     /// Whether the disk stays a disk, so that the square has corners outside.
     const CORNERS: bool;
-    /// How many columns and rows beside the two nearest ones the nearest code may be off.
-    const REACH: [i32; 2];
+    /// The columns and rows around a place in which the nearest code may stand.
+    const WINDOW: [Span; 2];
     /// Whether cells are sheared towards the corners of the square, so that the nearest code may
     /// stand far along a diagonal.
     const SHEARED: bool = false;
@@ -179,8 +186,8 @@ impl Projection for EqDist {
         let inner = outer.each(|c| (L::from_int(c) * ratio).round_int());
         let [u_whole, v_whole] =
             [0, 1].each(|i: usize| (inner[i] * r).eq(outer[i] * (L::Int::splat(2 * m) - r)));
-        // A column's u is as odd as m.
-        let column = (inner[0] - L::Int::splat(m)).low(1).eq(L::Int::splat(0));
+        // A column's u is odd, as m is.
+        let column = inner[0].low(1).eq(L::Int::splat(1));
         ((r * r).eq(rr) & L::Int::splat(m).lt(r) & u_whole & v_whole & column, inner)
     }
 }
@@ -190,7 +197,7 @@ pub(crate) struct Plain;
 
 impl Stretch for Plain {
     const CORNERS: bool = true;
-    const REACH: [i32; 2] = [1, 2];
+    const WINDOW: [Span; 2] = [Span { before: 1, count: 4 }, Span { before: 2, count: 6 }];
 
     #[inline(always)]
     fn to_square<L: Lane>(OnDisk { x, y, .. }: OnDisk<L>) -> [L; 2] {
@@ -212,7 +219,7 @@ pub(crate) struct Concentric;
 
 impl Stretch for Concentric {
     const CORNERS: bool = false;
-    const REACH: [i32; 2] = [1, 2];
+    const WINDOW: [Span; 2] = [Span { before: 1, count: 4 }, Span { before: 2, count: 6 }];
 
     #[inline(always)]
     fn to_square<L: Lane>(OnDisk { x, y, .. }: OnDisk<L>) -> [L; 2] {
@@ -245,7 +252,7 @@ pub(crate) struct Ellipse;
 
 impl Stretch for Ellipse {
     const CORNERS: bool = false;
-    const REACH: [i32; 2] = [3, 4];
+    const WINDOW: [Span; 2] = [Span { before: 3, count: 8 }, Span { before: 4, count: 10 }];
     const SHEARED: bool = true;
 
     #[inline(always)]
@@ -364,6 +371,7 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
     fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L::Int; 2] {
         let v = unit(v);
         let lower = v[2].lt(L::zero());
+        let other = !lower;
         let always = L::zero().le(L::zero());
         let place = Self::params(v, false, m).0;
         // What was decoded finds its own code at once.
@@ -371,7 +379,7 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
         own.consider(always, place.each(|p| p.round_int()), lower);
         if S::CORNERS {
             let past = Self::params(v, true, m).0;
-            own.consider(always, past.each(|p| p.round_int()), !lower);
+            own.consider(always, past.each(|p| p.round_int()), other);
         }
         if own.closest.is_exact() {
             return own.params();
@@ -382,7 +390,7 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
             search.diagonals(v, place, lower);
         }
         if S::CORNERS {
-            search.outside(v, !lower);
+            search.outside(v, other);
         }
         search.params()
     }
@@ -434,11 +442,11 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
     /// Considers the points around a place.
     #[inline(always)]
     fn window(&mut self, counts: L::Mask, place: [L; 2], lower: L::Mask) {
-        let [column, row] = place.each(|p| p.floor().round_int());
-        let [columns, rows] = S::REACH;
-        for i in -columns..=columns + 1 {
-            for j in -rows..=rows + 1 {
-                let place = [column + L::Int::splat(i), row + L::Int::splat(j)];
+        let first = [0, 1]
+            .each(|i: usize| place[i].floor().round_int() - L::Int::splat(S::WINDOW[i].before));
+        for i in 0..S::WINDOW[0].count {
+            for j in 0..S::WINDOW[1].count {
+                let place = [first[0] + L::Int::splat(i), first[1] + L::Int::splat(j)];
                 self.consider(counts, place, lower);
             }
         }
@@ -463,8 +471,9 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
         let distance = |[column, row]: [L::Int; 2]| {
             chord_squared(Chart::<P, S>::vector(&Point { column, row, lower }, m), v)
         };
-        for beside in -3..=3 {
-            let row = row + L::Int::splat(beside);
+        let first = row - L::Int::splat(3);
+        for beside in 0..7 {
+            let row = first + L::Int::splat(beside);
             // A diagonal that would begin outside the square begins where it leaves it.
             let outside = (row.abs() - last + L::Int::splat(1)).sar(1).max(zero);
             let mut at = [column.max(zero).min(last) - step[0] * outside, row - step[1] * outside];
@@ -511,10 +520,10 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
         let start = u.abs().greater(inside).lesser(edge).negate_where_negative(u);
         let start = ((start + edge) * L::splat(0.5)).round_int();
         let mut open = reachable;
-        let mut offset = L::Int::splat(0);
+        let mut ends = [start; 2];
         while open.any() {
             let mut any_open = L::zero().lt(L::zero());
-            for column in [start + offset, start - offset] {
+            for column in ends {
                 let exists = L::Int::splat(-1).lt(column) & column.lt(max + L::Int::splat(1));
                 let u = L::from_int(column + column - max);
                 let across = sqrt((rr - u * u).greater(L::zero())).negate_where_negative(row);
@@ -525,14 +534,14 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
                 let counts = open & exists & near;
                 any_open = any_open | counts;
                 if counts.any() {
-                    let row = across.floor().round_int();
-                    for j in -1..=2 {
-                        self.consider(counts, [column, row + L::Int::splat(j)], lower);
+                    let first = across.floor().round_int() - L::Int::splat(1);
+                    for j in 0..4 {
+                        self.consider(counts, [column, first + L::Int::splat(j)], lower);
                     }
                 }
             }
             open = open & any_open;
-            offset = offset + L::Int::splat(1);
+            ends = [ends[0] + L::Int::splat(1), ends[1] - L::Int::splat(1)];
         }
     }
 }
