@@ -319,6 +319,8 @@ struct Search<L: Lane> {
     target: [L; 3],
     /// The components over the largest one's magnitude.
     slope: [L; 3],
+    /// Their sum of squares.
+    stretch: L,
     /// From one grid point to the next on the axis of the largest component.
     step: L,
     /// Of the other two axes the slope, the steps, and one step.
@@ -350,9 +352,21 @@ impl<L: Lane> Search<L> {
         Search {
             target,
             slope,
+            stretch: length_squared(slope),
             step: L::select(is_x, step_x, L::select(is_y, step_y, step_z)),
             others: [pick(is_x, on_y, on_x), pick(is_x | is_y, on_z, on_y)],
         }
+    }
+
+    /// A point can only be nearer than a chord, of which `distance` is the square, if the sine of its
+    /// angle is below the chord, but for what f32 rounds off. Gives the square of that sine and, over
+    /// the length on the largest axis, how far off the point can be on each of the others.
+    #[inline(always)]
+    fn bounds(&self, distance: L) -> [L; 2] {
+        let sine = sqrt(distance) * L::splat(1.01) + L::splat(6e-7);
+        // Stretch times the sine, and a little for the length of the offset itself.
+        let off = self.stretch * sine * L::splat(1.3);
+        [sine * sine, L::select(sine.lt(L::splat(0.1)), off, L::splat(f32::INFINITY))]
     }
 
     /// The nearest point of all lengths; of those that decode alike, the one whose length is
@@ -362,29 +376,14 @@ impl<L: Lane> Search<L> {
         let mut found = [L::Int::splat(0); 3];
         let mut distance = L::splat(4.0);
         let mut off_unit = L::splat(4.0);
-        // A point can only be nearer if the sine of its angle, and so its offset across the target over
-        // its length, is below the chord so far; but for what f32 rounds off.
-        let stretch = length_squared(self.slope);
-        let per_stretch = L::splat(1.0) / stretch;
-        let limit = |distance: L| {
-            let sine = sqrt(distance) * L::splat(1.01) + L::splat(6e-7);
-            sine * sine
-        };
-        // How far off an axis across, over the length on the largest one's, a point can be that is nearer:
-        // not more than stretch times the sine, but for the length of the offset itself.
-        let reach = |within: L| {
-            let sine = sqrt(within);
-            let room = L::splat(1.0) - sine * L::splat(2.0);
-            let reach = stretch * sine * L::splat(1.01) / room.greater(L::splat(0.1));
-            L::select(room.lt(L::splat(0.1)), L::splat(f32::INFINITY), reach)
-        };
-        let mut within = limit(distance);
-        let mut farthest_off = reach(within);
+        let per_stretch = L::splat(1.0) / self.stretch;
+        let [mut within, mut reach] = self.bounds(distance);
         for n in (1..=G::LENGTHS).rev() {
             let length = G::length(L::splat(n as f32), self.step);
             let [a, b] =
                 self.others.each(|[slope, steps, step]| G::off(slope * length, steps, step));
-            if !a.greater(b).le(farthest_off * length).any() {
+            let reach_here = reach * length;
+            if !a.greater(b).le(reach_here).any() {
                 continue;
             }
             let ideal = self.slope.each(|s| s * length);
@@ -392,18 +391,14 @@ impl<L: Lane> Search<L> {
             // the nearest: components may go the other way, if half a gap is near enough.
             let gap = [0, 1, 2].each(|i: usize| G::half_gap(ideal[i], L::splat(1.0 / G::STEPS[i])));
             let least = gap[0].lesser(gap[1]).lesser(gap[2]);
-            let farthest = length + gap[0].greater(gap[1]).greater(gap[2]) * L::splat(3.0);
-            let near_enough = farthest * farthest * stretch * within;
-            let other_ways = (least * least * per_stretch).le(near_enough).any();
+            let other_ways = least.le(reach_here).any();
             let mut consider = |point: [L::Int; 3]| {
                 let values = Cartesian::<G>::values::<L>(point);
                 let offset = [0, 1, 2].each(|i: usize| values[i] - ideal[i]);
                 let square = length_squared(offset);
                 let along = dot(offset, self.slope);
                 let across = square - along * along * per_stretch;
-                let slack = square * L::splat(1e-6);
-                let near =
-                    across.le(length_squared(values) * within + slack) & length.le(L::splat(1.0));
+                let near = across.le(length_squared(values) * within) & length.le(L::splat(1.0));
                 if near.any() {
                     // Where f32 does not tell neighbours apart, only canonical points compete.
                     let point = if G::DISTINCT { point } else { G::representative::<L>(point) };
@@ -415,8 +410,7 @@ impl<L: Lane> Search<L> {
                     distance = L::select(better, there, distance);
                     off_unit = L::select(better, off, off_unit);
                     found = [0, 1, 2].each(|i: usize| L::Int::select(better, point[i], found[i]));
-                    within = limit(distance);
-                    farthest_off = reach(within);
+                    [within, reach] = self.bounds(distance);
                 }
             };
             let rounded = Cartesian::<G>::nearest(ideal);
