@@ -1335,6 +1335,8 @@ impl Representation for Octant {
         all.map(|[i, j, signs]| [i, j.min(OCTANT - i), signs]).collect()
     }
     fn vector(&self, [i, j, signs]: Params<i64>) -> [f64; 3] {
+        // A search looks beyond the triangle too: the point on its edge.
+        let j = j.min(OCTANT - i);
         let magnitudes = [i, j, OCTANT - i - j];
         let negative = Self::is_negative([i, j, signs]);
         normalize(std::array::from_fn(|k| {
