@@ -340,7 +340,6 @@ impl<L: Lane> Search<L> {
         let decoded = off.lt(L::splat(6e-7));
         let target = [0, 1, 2].each(|i: usize| L::select(decoded, v[i], unit[i]));
         let [x, y, z] = target.each(|c| c.abs());
-        let [step_x, step_y, step_z] = G::STEPS.each(|s| L::splat(1.0 / s));
         let largest = x.greater(y).greater(z);
         let (is_x, is_y) = (largest.le(x), largest.le(y));
         let slope = target.each(|c| c / largest);
@@ -349,11 +348,12 @@ impl<L: Lane> Search<L> {
         let pick = |mask, yes: [L; 3], no: [L; 3]| {
             [0, 1, 2].each(|i: usize| L::select(mask, yes[i], no[i]))
         };
+        let [_, _, step] = pick(is_x, on_x, pick(is_y, on_y, on_z));
         Search {
             target,
             slope,
             stretch: length_squared(slope),
-            step: L::select(is_x, step_x, L::select(is_y, step_y, step_z)),
+            step,
             others: [pick(is_x, on_y, on_x), pick(is_x | is_y, on_z, on_y)],
         }
     }
