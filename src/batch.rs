@@ -1,13 +1,13 @@
-//! The loops: eight lanes, then one, with the same formula.
+//! The loops: as many lanes as there are, then one, with the same formula.
 
 use core::marker::PhantomData;
 
 use bytemuck::Pod;
 
+use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
 use crate::formula::{Formula, Packed, Stored};
 use crate::lane::Lane;
-use crate::lane8::F8;
 use crate::{Codec, Visitor};
 
 /// Vectors to read, as a structure of arrays. All three slices have one element per vector.
@@ -31,14 +31,6 @@ pub struct SoaMut<'a> {
     /// The z components.
     pub z: &'a mut [f32],
 }
-
-/// Whether this target has vectors that eight lanes can stand on. Without them one lane is quicker
-/// and smaller, and gives the same bits.
-const EIGHT_LANES: bool = cfg!(any(
-    target_feature = "sse2",
-    target_feature = "simd128",
-    all(target_arch = "aarch64", target_feature = "neon"),
-));
 
 /// How many vectors a detour over the stack takes at a time.
 pub(crate) const STAGE: usize = 64;
@@ -66,7 +58,7 @@ impl Encoder for Precise {
 }
 
 /// What the loop over codes does with a block of them.
-pub(crate) trait Decoder<C: Copy> {
+pub(crate) trait Decoder<C: Copy + 'static> {
     fn decode<L: Lane>(&self, codes: &L::Block<C>) -> [L; 3];
 }
 
@@ -152,20 +144,28 @@ pub(crate) fn encode_soa_precise<F: Formula, C: Stored<F::Words>>(
 
 #[inline(never)]
 fn encode_all<E: Encoder, F: Formula, C: Stored<F::Words>>(
-    Soa { x, y, z }: Soa<'_>,
+    v: Soa<'_>,
     codes: &mut [C],
 ) -> Result<(), LengthMismatch> {
-    LengthMismatch::check_soa(x.len(), y.len(), z.len(), codes.len())?;
-    let (x8, x) = split::<f32>(x);
-    let (y8, y) = split::<f32>(y);
-    let (z8, z) = split::<f32>(z);
-    let (codes8, codes) = split_mut(codes);
-    for (((x, y), z), codes) in x8.iter().zip(y8).zip(z8).zip(codes8) {
-        encode_block::<E, F, C, F8>(x, y, z, codes);
+    struct EncodeAll<'a, E, F, C> {
+        v: Soa<'a>,
+        codes: &'a mut [C],
+        how: PhantomData<(E, F)>,
     }
-    for (((x, y), z), codes) in ones(x).iter().zip(ones(y)).zip(ones(z)).zip(ones_mut(codes)) {
-        encode_block::<E, F, C, f32>(x, y, z, codes);
+    impl<E: Encoder, F: Formula, C: Stored<F::Words>> Job for EncodeAll<'_, E, F, C> {
+        #[inline(always)]
+        fn run<L: Lane>(self) -> Self {
+            let EncodeAll { v: Soa { x, y, z }, codes, how } = self;
+            let ((xs, x), (ys, y), (zs, z)) = (L::split(x), L::split(y), L::split(z));
+            let (blocks, codes) = L::split_mut(codes);
+            for (((x, y), z), codes) in xs.iter().zip(ys).zip(zs).zip(blocks) {
+                encode_block::<E, F, C, L>(x, y, z, codes);
+            }
+            EncodeAll { v: Soa { x, y, z }, codes, how }
+        }
     }
+    LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+    dispatch(EncodeAll { v, codes, how: PhantomData::<(E, F)> });
     Ok(())
 }
 
@@ -178,71 +178,66 @@ pub(crate) fn decode_soa<F: Formula, C: Stored<F::Words>>(
 }
 
 #[inline(never)]
-pub(crate) fn decode_all<D: Decoder<C>, C: Copy>(
+pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
     decoder: &D,
     codes: &[C],
-    SoaMut { x, y, z }: SoaMut<'_>,
+    v: SoaMut<'_>,
 ) -> Result<(), LengthMismatch> {
-    LengthMismatch::check_soa(x.len(), y.len(), z.len(), codes.len())?;
-    let (x8, x) = split_mut(x);
-    let (y8, y) = split_mut(y);
-    let (z8, z) = split_mut(z);
-    let (codes8, codes) = split(codes);
-    for (((codes, x), y), z) in codes8.iter().zip(x8).zip(y8).zip(z8) {
-        decode_block::<D, C, F8>(decoder, codes, x, y, z);
+    struct DecodeAll<'a, D, C> {
+        decoder: &'a D,
+        codes: &'a [C],
+        v: SoaMut<'a>,
     }
-    let rest = ones(codes).iter().zip(ones_mut(x)).zip(ones_mut(y)).zip(ones_mut(z));
-    for (((codes, x), y), z) in rest {
-        decode_block::<D, C, f32>(decoder, codes, x, y, z);
+    impl<D: Decoder<C>, C: Copy + 'static> Job for DecodeAll<'_, D, C> {
+        #[inline(always)]
+        fn run<L: Lane>(self) -> Self {
+            let DecodeAll { decoder, codes, v: SoaMut { x, y, z } } = self;
+            let ((xs, x), (ys, y), (zs, z)) = (L::split_mut(x), L::split_mut(y), L::split_mut(z));
+            let (blocks, codes) = L::split(codes);
+            for (((codes, x), y), z) in blocks.iter().zip(xs).zip(ys).zip(zs) {
+                decode_block::<D, C, L>(decoder, codes, x, y, z);
+            }
+            DecodeAll { decoder, codes, v: SoaMut { x, y, z } }
+        }
     }
+    LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+    dispatch(DecodeAll { decoder, codes, v });
     Ok(())
 }
 
 /// What a loop from one slice to another does to each block.
-pub(crate) trait Kernel<A: Copy, B: Copy> {
+pub(crate) trait Kernel<A: Copy + 'static, B: Copy + 'static> {
     fn run<L: Lane>(from: &L::Block<A>, to: &mut L::Block<B>);
 }
 
 /// Runs `K` over two slices, which are equally long.
 #[inline]
-pub(crate) fn run<K: Kernel<A, B>, A: Copy, B: Copy>(from: &[A], to: &mut [B]) {
-    let (from8, from) = split(from);
-    let (to8, to) = split_mut(to);
-    for (from, to) in from8.iter().zip(to8) {
-        K::run::<F8>(from, to);
+pub(crate) fn run<K: Kernel<A, B>, A: Copy + 'static, B: Copy + 'static>(from: &[A], to: &mut [B]) {
+    struct All<'a, K, A, B> {
+        from: &'a [A],
+        to: &'a mut [B],
+        kernel: PhantomData<K>,
     }
-    for (from, to) in ones(from).iter().zip(ones_mut(to)) {
-        K::run::<f32>(from, to);
+    impl<K: Kernel<A, B>, A: Copy + 'static, B: Copy + 'static> Job for All<'_, K, A, B> {
+        #[inline(always)]
+        fn run<L: Lane>(self) -> Self {
+            let All { from, to, kernel } = self;
+            let ((froms, from), (tos, to)) = (L::split(from), L::split_mut(to));
+            for (from, to) in froms.iter().zip(tos) {
+                K::run::<L>(from, to);
+            }
+            All { from, to, kernel }
+        }
     }
+    dispatch(All { from, to, kernel: PhantomData::<K> });
 }
 
 /// Runs `K` on one element.
 #[inline]
-pub(crate) fn run_one<K: Kernel<A, B>, A: Copy, B: Pod>(from: A) -> B {
+pub(crate) fn run_one<K: Kernel<A, B>, A: Copy + 'static, B: Pod>(from: A) -> B {
     let mut to = [B::zeroed()];
     K::run::<f32>(&[from], &mut to);
     to[0]
-}
-
-/// Blocks of eight, and the rest.
-#[inline(always)]
-pub(crate) fn split<T>(slice: &[T]) -> (&[[T; 8]], &[T]) {
-    if EIGHT_LANES { slice.as_chunks() } else { (&[], slice) }
-}
-
-#[inline(always)]
-pub(crate) fn split_mut<T>(slice: &mut [T]) -> (&mut [[T; 8]], &mut [T]) {
-    if EIGHT_LANES { slice.as_chunks_mut() } else { (&mut [], slice) }
-}
-
-#[inline(always)]
-pub(crate) fn ones<T>(slice: &[T]) -> &[[T; 1]] {
-    slice.as_chunks().0
-}
-
-#[inline(always)]
-pub(crate) fn ones_mut<T>(slice: &mut [T]) -> &mut [[T; 1]] {
-    slice.as_chunks_mut().0
 }
 
 /// A few vectors on the stack, between a layout of the caller's and the loops over structures of

@@ -148,24 +148,37 @@ fn magnitude<L: Lane>(v: [L; 3]) -> L {
 #[cold]
 #[inline(never)]
 fn mend<L: Lane>(v: [L; 3], magnitude: L, usual: L::Mask) -> [L; 3] {
-    let infinite = L::splat(f32::INFINITY).le(magnitude);
-    // The tiny times 2^72 or, near the subnormal (below 2^-104), 2^126; the huge down to 2^40, so
-    // that no sign is lost that a smaller multiple would keep.
-    let down = (L::Int::splat(127 + 40 + 127) - magnitude.to_bits().shr(23)).shl(23);
-    let scale = L::select(
-        magnitude.lt(L::splat(4.930_380_7e-32)),
-        L::splat(8.507_059e37),
-        L::select(magnitude.lt(L::splat(1.0)), L::splat(4.722_366_5e21), L::from_bits(down)),
-    );
-    let none = !(L::zero().lt(magnitude)); // zero or NaN
-    let pole = [L::zero(), L::zero(), L::splat(1.0)];
-    [0, 1, 2].each(|i: usize| {
-        let c = v[i];
-        let at_infinity = L::splat(f32::INFINITY).le(c.abs());
-        let limit = L::select(at_infinity, L::splat(1.0).negate_where_negative(c), L::zero());
-        let c_mended = L::select(none, pole[i], L::select(infinite, limit, c * scale));
-        L::select(usual, c, c_mended)
-    })
+    L::compiled_for(
+        #[inline(always)]
+        || {
+            let infinite = L::splat(f32::INFINITY).le(magnitude);
+            // The tiny times 2^72 or, near the subnormal (below 2^-104), 2^126; the huge down to 2^40, so
+            // that no sign is lost that a smaller multiple would keep.
+            let down = (L::Int::splat(127 + 40 + 127) - magnitude.to_bits().shr(23)).shl(23);
+            let scale = L::select(
+                magnitude.lt(L::splat(4.930_380_7e-32)),
+                L::splat(8.507_059e37),
+                L::select(
+                    magnitude.lt(L::splat(1.0)),
+                    L::splat(4.722_366_5e21),
+                    L::from_bits(down),
+                ),
+            );
+            let none = !(L::zero().lt(magnitude)); // zero or NaN
+            let pole = [L::zero(), L::zero(), L::splat(1.0)];
+            [0, 1, 2].each(
+                #[inline(always)]
+                |i: usize| {
+                    let c = v[i];
+                    let at_infinity = L::splat(f32::INFINITY).le(c.abs());
+                    let limit =
+                        L::select(at_infinity, L::splat(1.0).negate_where_negative(c), L::zero());
+                    let c_mended = L::select(none, pole[i], L::select(infinite, limit, c * scale));
+                    L::select(usual, c, c_mended)
+                },
+            )
+        },
+    )
 }
 
 /// Keeps the candidate that decodes closest to a vector.

@@ -24,15 +24,30 @@ pub(crate) trait Lane:
     /// A truth value per lane.
     type Mask: LaneMask;
     /// As many elements of a slice as there are lanes.
-    type Block<T: Copy>: Copy;
+    type Block<T: Copy + 'static>: Copy + 'static;
+
+    /// The whole blocks of a slice, and the rest.
+    fn split<T: Copy + 'static>(slice: &[T]) -> (&[Self::Block<T>], &[T]);
+    /// The whole blocks of a slice, and the rest.
+    fn split_mut<T: Copy + 'static>(slice: &mut [T]) -> (&mut [Self::Block<T>], &mut [T]);
+    /// Compiles `f` for the processor that these lanes need. What is not inlined into a loop over lanes
+    /// consists of a call of this, whose closure is.
+    #[inline(always)]
+    fn compiled_for<R>(f: impl FnOnce() -> R) -> R {
+        f()
+    }
 
     fn splat(x: f32) -> Self;
     fn load(block: &Self::Block<f32>) -> Self;
     fn store(self, block: &mut Self::Block<f32>);
     /// Integers computed from the elements of a block.
-    fn load_int<T: Copy>(block: &Self::Block<T>, f: impl Fn(T) -> u32) -> Self::Int;
+    fn load_int<T: Copy + 'static>(block: &Self::Block<T>, f: impl Fn(T) -> u32) -> Self::Int;
     /// Writes integers, converted, to the elements of a block.
-    fn store_int<T: Copy>(int: Self::Int, block: &mut Self::Block<T>, f: impl Fn(&mut T, u32));
+    fn store_int<T: Copy + 'static>(
+        int: Self::Int,
+        block: &mut Self::Block<T>,
+        f: impl Fn(&mut T, u32),
+    );
 
     fn from_bits(bits: Self::Int) -> Self;
     fn to_bits(self) -> Self::Int;
@@ -193,6 +208,13 @@ pub(crate) trait Each<T> {
     fn each<U>(self, f: impl Fn(T) -> U) -> Self::Of<U>;
 }
 
+/// A closure with an attribute, which a `let` cannot take. Whatever works on lanes must be inlined, so that
+/// it is compiled for the processor of the loop that it ends up in.
+#[inline(always)]
+pub(crate) fn inlined<F>(f: F) -> F {
+    f
+}
+
 impl<T> Each<T> for [T; 2] {
     type Of<U> = [U; 2];
     #[inline(always)]
@@ -214,8 +236,16 @@ impl<T> Each<T> for [T; 3] {
 impl Lane for f32 {
     type Int = Wrapping<i32>;
     type Mask = bool;
-    type Block<T: Copy> = [T; 1];
+    type Block<T: Copy + 'static> = [T; 1];
 
+    #[inline(always)]
+    fn split<T: Copy + 'static>(slice: &[T]) -> (&[[T; 1]], &[T]) {
+        slice.as_chunks()
+    }
+    #[inline(always)]
+    fn split_mut<T: Copy + 'static>(slice: &mut [T]) -> (&mut [[T; 1]], &mut [T]) {
+        slice.as_chunks_mut()
+    }
     #[inline(always)]
     fn splat(x: f32) -> Self {
         x
@@ -229,11 +259,11 @@ impl Lane for f32 {
         *block = [self];
     }
     #[inline(always)]
-    fn load_int<T: Copy>(block: &[T; 1], f: impl Fn(T) -> u32) -> Self::Int {
+    fn load_int<T: Copy + 'static>(block: &[T; 1], f: impl Fn(T) -> u32) -> Self::Int {
         Wrapping(f(block[0]) as i32)
     }
     #[inline(always)]
-    fn store_int<T: Copy>(int: Self::Int, block: &mut [T; 1], f: impl Fn(&mut T, u32)) {
+    fn store_int<T: Copy + 'static>(int: Self::Int, block: &mut [T; 1], f: impl Fn(&mut T, u32)) {
         f(&mut block[0], int.0 as u32);
     }
     #[inline(always)]

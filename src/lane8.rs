@@ -69,8 +69,16 @@ impl Not for M8 {
 impl Lane for F8 {
     type Int = I8;
     type Mask = M8;
-    type Block<T: Copy> = [T; 8];
+    type Block<T: Copy + 'static> = [T; 8];
 
+    #[inline(always)]
+    fn split<T: Copy + 'static>(slice: &[T]) -> (&[[T; 8]], &[T]) {
+        slice.as_chunks()
+    }
+    #[inline(always)]
+    fn split_mut<T: Copy + 'static>(slice: &mut [T]) -> (&mut [[T; 8]], &mut [T]) {
+        slice.as_chunks_mut()
+    }
     #[inline(always)]
     fn splat(x: f32) -> Self {
         F8(f32x8::splat(x))
@@ -84,11 +92,11 @@ impl Lane for F8 {
         *block = self.0.to_array();
     }
     #[inline(always)]
-    fn load_int<T: Copy>(block: &[T; 8], f: impl Fn(T) -> u32) -> I8 {
+    fn load_int<T: Copy + 'static>(block: &[T; 8], f: impl Fn(T) -> u32) -> I8 {
         I8(i32x8::new(block.map(|t| f(t) as i32)))
     }
     #[inline(always)]
-    fn store_int<T: Copy>(int: I8, block: &mut [T; 8], f: impl Fn(&mut T, u32)) {
+    fn store_int<T: Copy + 'static>(int: I8, block: &mut [T; 8], f: impl Fn(&mut T, u32)) {
         for (t, i) in block.iter_mut().zip(int.0.to_array()) {
             f(t, i as u32);
         }

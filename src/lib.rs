@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
-#![forbid(unsafe_code)]
+#![cfg_attr(feature = "std", deny(unsafe_code))]
+#![cfg_attr(not(feature = "std"), forbid(unsafe_code))]
 
 #[cfg(test)]
 extern crate std;
@@ -9,17 +10,22 @@ mod batch;
 mod code_int;
 mod codec;
 pub mod decode_table;
+mod dispatch;
 mod error;
 mod format;
 mod formula;
 mod half;
 mod lane;
 mod lane8;
+#[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
+mod lane_x86;
 mod layout;
 pub mod low_dimensions;
 mod math;
 pub mod packing;
 pub mod scalar;
+#[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
+mod x86;
 
 pub use batch::{Soa, SoaMut, transcode};
 pub use code_int::CodeInt;

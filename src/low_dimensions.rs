@@ -4,12 +4,11 @@
 //! Independent Unit Vectors", 2014.
 
 use crate::CodeInt;
-use crate::batch::{ones, ones_mut, split, split_mut};
 use crate::code_int::holds;
+use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
 use crate::formula::direction;
 use crate::lane::{Each, Lane, LaneInt};
-use crate::lane8::F8;
 use crate::math::{angle_in_octant, sin_cos_half_turns};
 
 /// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
@@ -120,15 +119,7 @@ impl<const BITS: u32> Angle<BITS> {
         codes: &mut [T],
     ) -> Result<(), LengthMismatch> {
         LengthMismatch::check_angles(x.len(), y.len(), codes.len())?;
-        let (x8, x) = split::<f32>(x);
-        let (y8, y) = split::<f32>(y);
-        let (codes8, codes) = split_mut(codes);
-        for ((x, y), codes) in x8.iter().zip(y8).zip(codes8) {
-            Self::encode_block::<T, F8>(x, y, codes);
-        }
-        for ((x, y), codes) in ones(x).iter().zip(ones(y)).zip(ones_mut(codes)) {
-            Self::encode_block::<T, f32>(x, y, codes);
-        }
+        dispatch(EncodeAngles::<BITS, T> { x, y, codes });
         Ok(())
     }
 
@@ -143,15 +134,7 @@ impl<const BITS: u32> Angle<BITS> {
         y: &mut [f32],
     ) -> Result<(), LengthMismatch> {
         LengthMismatch::check_angles(x.len(), y.len(), codes.len())?;
-        let (x8, x) = split_mut(x);
-        let (y8, y) = split_mut(y);
-        let (codes8, codes) = split(codes);
-        for ((codes, x), y) in codes8.iter().zip(x8).zip(y8) {
-            Self::decode_block::<T, F8>(codes, x, y);
-        }
-        for ((codes, x), y) in ones(codes).iter().zip(ones_mut(x)).zip(ones_mut(y)) {
-            Self::decode_block::<T, f32>(codes, x, y);
-        }
+        dispatch(DecodeAngles::<BITS, T> { codes, x, y });
         Ok(())
     }
 
@@ -205,5 +188,42 @@ impl<const BITS: u32> Angle<BITS> {
             eighths.shl(BITS - 3) + rest.round_int()
         };
         k.low(BITS)
+    }
+}
+
+struct EncodeAngles<'a, const BITS: u32, T> {
+    x: &'a [f32],
+    y: &'a [f32],
+    codes: &'a mut [T],
+}
+
+impl<const BITS: u32, T: CodeInt> Job for EncodeAngles<'_, BITS, T> {
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self {
+        let EncodeAngles { x, y, codes } = self;
+        let ((xs, x), (ys, y), (blocks, codes)) = (L::split(x), L::split(y), L::split_mut(codes));
+        for ((x, y), codes) in xs.iter().zip(ys).zip(blocks) {
+            Angle::<BITS>::encode_block::<T, L>(x, y, codes);
+        }
+        EncodeAngles { x, y, codes }
+    }
+}
+
+struct DecodeAngles<'a, const BITS: u32, T> {
+    codes: &'a [T],
+    x: &'a mut [f32],
+    y: &'a mut [f32],
+}
+
+impl<const BITS: u32, T: CodeInt> Job for DecodeAngles<'_, BITS, T> {
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self {
+        let DecodeAngles { codes, x, y } = self;
+        let ((blocks, codes), (xs, x), (ys, y)) =
+            (L::split(codes), L::split_mut(x), L::split_mut(y));
+        for ((codes, x), y) in blocks.iter().zip(xs).zip(ys) {
+            Angle::<BITS>::decode_block::<T, L>(codes, x, y);
+        }
+        DecodeAngles { codes, x, y }
     }
 }

@@ -23,7 +23,7 @@ use core::marker::PhantomData;
 
 use crate::formula::{Formula, One, Packed, Symmetric, Three, Words};
 use crate::half;
-use crate::lane::{Each, Lane, LaneInt, LaneMask};
+use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
 use crate::layout::{snorm_max, unorm_max};
 use crate::math::{chord_squared, dot, inv_sqrt, length_squared, normalize, sqrt};
 
@@ -96,9 +96,12 @@ impl<const X: u32, const Y: u32, const Z: u32> Grid for Snorm<X, Y, Z> {
     }
     #[inline(always)]
     fn unpack<L: Lane>(code: L::Int) -> [L::Int; 3] {
-        let field = |shift: u32, bits: u32| {
-            code.shr(shift).sign_extend(bits).max(L::Int::splat(-snorm_max(bits)))
-        };
+        let field = inlined(
+            #[inline(always)]
+            |shift: u32, bits: u32| {
+                code.shr(shift).sign_extend(bits).max(L::Int::splat(-snorm_max(bits)))
+            },
+        );
         [field(0, X), field(X, Y), field(X + Y, Z)]
     }
 }
@@ -215,11 +218,14 @@ impl Grid for Halves {
     fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
         // Each value is an odd integer times a power of two, or zero.
         let values = point.each(|i| half::value::<L>(i));
-        let odd = point.each(|i| {
-            let mantissa = half::mantissa::<L>(i);
-            let lowest = L::from_int(mantissa & -mantissa).greater(L::splat(1.0));
-            L::from_int(mantissa) / lowest
-        });
+        let odd = point.each(
+            #[inline(always)]
+            |i| {
+                let mantissa = half::mantissa::<L>(i);
+                let lowest = L::from_int(mantissa & -mantissa).greater(L::splat(1.0));
+                L::from_int(mantissa) / lowest
+            },
+        );
         let divisor = gcd(gcd(odd[0], odd[1]), odd[2]);
         let primitive = values.each(|c| c / divisor);
         // So many times, and powers of two, keep all mantissas below 2^11.
@@ -229,11 +235,14 @@ impl Grid for Halves {
         let over = times / room;
         let power =
             L::from_bits((over.to_bits() + L::Int::splat(0x7F_FFFF)) & L::Int::splat(0x7F80_0000));
-        let units = [0, 1, 2].each(|i: usize| {
-            let zero = odd[i].le(L::zero());
-            let unit = values[i].abs() / odd[i].greater(L::splat(1.0));
-            L::select(zero, L::splat(1.0), unit)
-        });
+        let units = [0, 1, 2].each(
+            #[inline(always)]
+            |i: usize| {
+                let zero = odd[i].le(L::zero());
+                let unit = values[i].abs() / odd[i].greater(L::splat(1.0));
+                L::select(zero, L::splat(1.0), unit)
+            },
+        );
         let finest = L::splat(1.0 / 16_777_216.0) / units[0].lesser(units[1]).lesser(units[2]);
         let power = power.greater(finest);
         // Either a multiple of that power, or the greatest multiple of the one below.
@@ -243,12 +252,18 @@ impl Grid for Halves {
         let power = L::select(use_below, power * L::splat(0.5), power);
         let times = L::select(use_below, room, (times / power).round());
         // The largest component is 1 at most.
-        let [x, y, z] = primitive.each(|c| (c * power).abs());
+        let [x, y, z] = primitive.each(
+            #[inline(always)]
+            |c| (c * power).abs(),
+        );
         let largest = x.greater(y).greater(z);
         let too_long = L::splat(1.0).lt(largest * times);
         let times = L::select(too_long, times - L::splat(1.0), times);
         let times = L::select(times.lt(L::splat(0.5)), L::splat(0.5), times);
-        primitive.each(|c| half::nearest(c * power * times))
+        primitive.each(
+            #[inline(always)]
+            |c| half::nearest(c * power * times),
+        )
     }
     #[inline(always)]
     fn pack<L: Lane>(v: [L::Int; 3]) -> [L::Int; 3] {
@@ -263,12 +278,18 @@ impl Grid for Halves {
 impl<G: Grid> Cartesian<G> {
     #[inline(always)]
     fn nearest<L: Lane>(v: [L; 3]) -> [L::Int; 3] {
-        [0, 1, 2].each(|i: usize| G::nearest(v[i], L::splat(G::STEPS[i])))
+        [0, 1, 2].each(
+            #[inline(always)]
+            |i: usize| G::nearest(v[i], L::splat(G::STEPS[i])),
+        )
     }
 
     #[inline(always)]
     fn values<L: Lane>(point: [L::Int; 3]) -> [L; 3] {
-        [0, 1, 2].each(|i: usize| G::value(point[i], L::splat(1.0 / G::STEPS[i])))
+        [0, 1, 2].each(
+            #[inline(always)]
+            |i: usize| G::value(point[i], L::splat(1.0 / G::STEPS[i])),
+        )
     }
 
     #[inline(always)]
@@ -345,9 +366,12 @@ impl<L: Lane> Search<L> {
         let slope = target.each(|c| c / largest);
         let [on_x, on_y, on_z] = [0, 1, 2]
             .each(|i: usize| [slope[i], L::splat(G::STEPS[i]), L::splat(1.0 / G::STEPS[i])]);
-        let pick = |mask, yes: [L; 3], no: [L; 3]| {
-            [0, 1, 2].each(|i: usize| L::select(mask, yes[i], no[i]))
-        };
+        let pick = inlined(
+            #[inline(always)]
+            |mask, yes: [L; 3], no: [L; 3]| {
+                [0, 1, 2].each(|i: usize| L::select(mask, yes[i], no[i]))
+            },
+        );
         let [_, _, step] = pick(is_x, on_x, pick(is_y, on_y, on_z));
         Search {
             target,
@@ -380,8 +404,10 @@ impl<L: Lane> Search<L> {
         let [mut within, mut reach] = self.bounds(distance);
         for n in (1..=G::LENGTHS).rev() {
             let length = G::length(L::splat(n as f32), self.step);
-            let [a, b] =
-                self.others.each(|[slope, steps, step]| G::off(slope * length, steps, step));
+            let [a, b] = self.others.each(
+                #[inline(always)]
+                |[slope, steps, step]| G::off(slope * length, steps, step),
+            );
             let reach_here = reach * length;
             if !a.greater(b).le(reach_here).any() {
                 continue;
@@ -389,42 +415,55 @@ impl<L: Lane> Search<L> {
             let ideal = self.slope.each(|s| s * length);
             // Near the diagonals and in a coarse grid the rounded corner of the cell is not always
             // the nearest: components may go the other way, if half a gap is near enough.
-            let gap = [0, 1, 2].each(|i: usize| G::half_gap(ideal[i], L::splat(1.0 / G::STEPS[i])));
+            let gap = [0, 1, 2].each(
+                #[inline(always)]
+                |i: usize| G::half_gap(ideal[i], L::splat(1.0 / G::STEPS[i])),
+            );
             let least = gap[0].lesser(gap[1]).lesser(gap[2]);
             let other_ways = least.le(reach_here).any();
-            let mut consider = |point: [L::Int; 3]| {
-                let values = Cartesian::<G>::values::<L>(point);
-                let offset = [0, 1, 2].each(|i: usize| values[i] - ideal[i]);
-                let square = length_squared(offset);
-                let along = dot(offset, self.slope);
-                let across = square - along * along * per_stretch;
-                let near = across.le(length_squared(values) * within) & length.le(L::splat(1.0));
-                if near.any() {
-                    // Where f32 does not tell neighbours apart, only canonical points compete.
-                    let point = if G::DISTINCT { point } else { G::representative::<L>(point) };
+            let mut consider = inlined(
+                #[inline(always)]
+                |point: [L::Int; 3]| {
                     let values = Cartesian::<G>::values::<L>(point);
-                    let there = chord_squared(Cartesian::<G>::unit(values), self.target);
-                    let off = (sqrt(length_squared(values)) - L::splat(1.0)).abs();
-                    let alike = distance.le(there) & there.le(distance) & off.lt(off_unit);
-                    let better = near & (there.lt(distance) | alike);
-                    distance = L::select(better, there, distance);
-                    off_unit = L::select(better, off, off_unit);
-                    found = [0, 1, 2].each(|i: usize| L::Int::select(better, point[i], found[i]));
-                    [within, reach] = self.bounds(distance);
-                }
-            };
+                    let offset = [0, 1, 2].each(|i: usize| values[i] - ideal[i]);
+                    let square = length_squared(offset);
+                    let along = dot(offset, self.slope);
+                    let across = square - along * along * per_stretch;
+                    let near =
+                        across.le(length_squared(values) * within) & length.le(L::splat(1.0));
+                    if near.any() {
+                        // Where f32 does not tell neighbours apart, only canonical points compete.
+                        let point = if G::DISTINCT { point } else { G::representative::<L>(point) };
+                        let values = Cartesian::<G>::values::<L>(point);
+                        let there = chord_squared(Cartesian::<G>::unit(values), self.target);
+                        let off = (sqrt(length_squared(values)) - L::splat(1.0)).abs();
+                        let alike = distance.le(there) & there.le(distance) & off.lt(off_unit);
+                        let better = near & (there.lt(distance) | alike);
+                        distance = L::select(better, there, distance);
+                        off_unit = L::select(better, off, off_unit);
+                        found =
+                            [0, 1, 2].each(|i: usize| L::Int::select(better, point[i], found[i]));
+                        [within, reach] = self.bounds(distance);
+                    }
+                },
+            );
             let rounded = Cartesian::<G>::nearest(ideal);
             consider(rounded);
             if other_ways {
                 // The corners but for the rounded one: the largest component stays as it is.
                 let values = Cartesian::<G>::values::<L>(rounded);
-                let other = [0, 1, 2].each(|i: usize| {
-                    let count =
-                        |mask| L::Int::select(mask, L::Int::splat(G::PITCH), L::Int::splat(0));
-                    let up = count(values[i].lt(ideal[i]));
-                    let down = count(ideal[i].lt(values[i]));
-                    rounded[i] + up - down
-                });
+                let other = [0, 1, 2].each(
+                    #[inline(always)]
+                    |i: usize| {
+                        let count = inlined(
+                            #[inline(always)]
+                            |mask| L::Int::select(mask, L::Int::splat(G::PITCH), L::Int::splat(0)),
+                        );
+                        let up = count(values[i].lt(ideal[i]));
+                        let down = count(ideal[i].lt(values[i]));
+                        rounded[i] + up - down
+                    },
+                );
                 for kept in 0..3 {
                     let mut point = other;
                     point[kept] = rounded[kept];
@@ -450,9 +489,14 @@ impl<G: Grid> Formula for Cartesian<G> {
 
     #[inline(never)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> Packed<Self, L> {
-        let point = Search::new::<G>(v).nearest::<G>();
-        let point = if G::DISTINCT { G::representative::<L>(point) } else { point };
-        G::pack::<L>(point)
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let point = Search::new::<G>(v).nearest::<G>();
+                let point = if G::DISTINCT { G::representative::<L>(point) } else { point };
+                G::pack::<L>(point)
+            },
+        )
     }
 
     #[inline(always)]
@@ -503,18 +547,27 @@ impl Formula for BestFit {
         let [x, y, z] = v.each(|c| c.abs());
         let (a, rest) = (x.greater(y), x.lesser(y));
         let (a, b, c) = (a.greater(z), a.lesser(z).greater(rest), rest.lesser(z));
-        let texel = |t: L| (t * L::splat(512.0)).floor().round_int().min(L::Int::splat(511));
+        let texel = inlined(
+            #[inline(always)]
+            |t: L| (t * L::splat(512.0)).floor().round_int().min(L::Int::splat(511)),
+        );
         let (u, v_texel) = (texel(b / a), texel(c / b.greater(L::splat(1e-30))));
         let largest = L::from_int(L::gather(BEST_FIT, v_texel.shl(9) + u));
         let scale = largest * L::splat(1.0 / 255.0) / a;
         let steps = L::splat(255.0);
-        let point = v.each(|c| Unorm::<8>::nearest(c * scale, steps));
+        let point = v.each(
+            #[inline(always)]
+            |c| Unorm::<8>::nearest(c * scale, steps),
+        );
         Unorm::<8>::pack::<L>(Unorm::<8>::representative::<L>(point))
     }
 
     #[inline(never)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        Cartesian::<Unorm<8>>::encode_precise(v)
+        L::compiled_for(
+            #[inline(always)]
+            || Cartesian::<Unorm<8>>::encode_precise(v),
+        )
     }
 
     #[inline(always)]

@@ -19,7 +19,7 @@
 use core::marker::PhantomData;
 
 use crate::formula::{Formula, One, Symmetric, closest_of_four};
-use crate::lane::{Each, Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::layout::snorm_max;
 use crate::math::{atan2_half_turns, normalize, sin_cos_half_turns};
 
@@ -60,11 +60,14 @@ impl Spacing for Warped {
     }
     #[inline(always)]
     fn direction<L: Lane>(params: [L; 3]) -> [L; 3] {
-        params.each(|p| {
-            let (sin, cos) = sin_cos_half_turns(p * L::splat(0.25));
-            let end = L::splat(1.0).le(p.abs());
-            L::select(end, p, sin / cos)
-        })
+        params.each(
+            #[inline(always)]
+            |p| {
+                let (sin, cos) = sin_cos_half_turns(p * L::splat(0.25));
+                let end = L::splat(1.0).le(p.abs());
+                L::select(end, p, sin / cos)
+            },
+        )
     }
 }
 
@@ -140,7 +143,10 @@ impl<W: Spacing, const BITS: u32> Cube<W, BITS> {
         let max = L::Int::splat(Self::M);
         let negative = code.low(1).eq(L::Int::splat(1));
         let axis = code.shr(1).low(2).min(L::Int::splat(2));
-        let side = |shift: u32| code.shr(shift).sign_extend(Self::SIDE).max(-max);
+        let side = inlined(
+            #[inline(always)]
+            |shift: u32| code.shr(shift).sign_extend(Self::SIDE).max(-max),
+        );
         ([L::Int::select(negative, -max, max), side(3), side(3 + Self::SIDE)], axis)
     }
 
@@ -158,7 +164,14 @@ impl<W: Spacing, const BITS: u32> Cube<W, BITS> {
         let max = L::Int::splat(Self::M);
         let end = L::Int::select(main.lt(L::zero()), -max, max);
         let scale = L::splat(Self::M as f32);
-        ([a, b].each(|side| W::param(side, main.abs()) * scale), axis, end)
+        (
+            [a, b].each(
+                #[inline(always)]
+                |side| W::param(side, main.abs()) * scale,
+            ),
+            axis,
+            end,
+        )
     }
 
     /// A point of the cube from -M to M.
@@ -181,11 +194,21 @@ impl<W: Spacing, const BITS: u32> Formula for Cube<W, BITS> {
 
     #[inline(never)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        let (params, axis, end) = Self::params(v);
-        closest_of_four(v, params, |sides| {
-            let point = Self::point::<L>(axis, end, sides);
-            (Self::pack::<L>(point), Self::vector::<L>(point))
-        })
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let (params, axis, end) = Self::params(v);
+                closest_of_four(
+                    v,
+                    params,
+                    #[inline(always)]
+                    |sides| {
+                        let point = Self::point::<L>(axis, end, sides);
+                        (Self::pack::<L>(point), Self::vector::<L>(point))
+                    },
+                )
+            },
+        )
     }
 
     #[inline(always)]
@@ -235,12 +258,15 @@ impl Cells {
     fn vector<L: Lane>(self, cell: [L::Int; 2], face: L::Int) -> [L; 3] {
         let s = L::Int::splat(self.side);
         let scale = L::splat(0.25 / self.side as f32);
-        let [a, b] = cell.each(|i| {
-            // A quarter of (2 i + 1) / s - 1, in half turns.
-            let odd = i + i + L::Int::splat(1) - s;
-            let (sin, cos) = sin_cos_half_turns(L::from_int(odd) * scale);
-            sin / cos
-        });
+        let [a, b] = cell.each(
+            #[inline(always)]
+            |i| {
+                // A quarter of (2 i + 1) / s - 1, in half turns.
+                let odd = i + i + L::Int::splat(1) - s;
+                let (sin, cos) = sin_cos_half_turns(L::from_int(odd) * scale);
+                sin / cos
+            },
+        );
         let negative = face.low(1).eq(L::Int::splat(1));
         let main = L::select(negative, L::splat(-1.0), L::splat(1.0));
         let axis = face.shr(1);
@@ -254,8 +280,10 @@ impl Cells {
     fn params<L: Lane>(self, v: [L; 3]) -> ([L; 2], L::Int) {
         let ([main, a, b], axis) = largest_first(v);
         let half = L::splat(0.5 * self.side as f32);
-        let params =
-            [a, b].each(|side| Warped::param(side, main.abs()) * half + (half - L::splat(0.5)));
+        let params = [a, b].each(
+            #[inline(always)]
+            |side| Warped::param(side, main.abs()) * half + (half - L::splat(0.5)),
+        );
         let sign = L::Int::select(main.lt(L::zero()), L::Int::splat(1), L::Int::splat(0));
         (params, axis + axis + sign)
     }
@@ -267,17 +295,32 @@ impl Cells {
 
     #[inline(never)]
     fn encode<L: Lane>(self, v: [L; 3]) -> L::Int {
-        let (params, face) = self.params(v);
-        self.pack::<L>(self.clamp::<L>(params.each(|p| p.round_int())), face)
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let (params, face) = self.params(v);
+                self.pack::<L>(self.clamp::<L>(params.each(|p| p.round_int())), face)
+            },
+        )
     }
 
     #[inline(never)]
     fn encode_precise<L: Lane>(self, v: [L; 3]) -> L::Int {
-        let (params, face) = self.params(v);
-        closest_of_four(v, params, |cell| {
-            let cell = self.clamp::<L>(cell);
-            (self.pack::<L>(cell, face), self.vector::<L>(cell, face))
-        })
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let (params, face) = self.params(v);
+                closest_of_four(
+                    v,
+                    params,
+                    #[inline(always)]
+                    |cell| {
+                        let cell = self.clamp::<L>(cell);
+                        (self.pack::<L>(cell, face), self.vector::<L>(cell, face))
+                    },
+                )
+            },
+        )
     }
 
     /// The cell of a code, and its face.
@@ -300,8 +343,13 @@ impl Cells {
 
     #[inline(never)]
     fn decode<L: Lane>(self, code: L::Int) -> [L; 3] {
-        let (cell, face) = self.unpack::<L>(code);
-        self.vector::<L>(cell, face)
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let (cell, face) = self.unpack::<L>(code);
+                self.vector::<L>(cell, face)
+            },
+        )
     }
 
     /// Cells from the middle of an edge to its end.
@@ -311,14 +359,19 @@ impl Cells {
 
     #[inline(never)]
     fn fold<L: Lane>(self, code: L::Int) -> (L::Int, [L::Mask; 3]) {
-        let zero = L::Int::splat(0);
-        let (cell, face) = self.unpack::<L>(code);
-        let axis = face.shr(1);
-        let [a, b] = cell.each(|i| i + i + L::Int::splat(1 - self.side));
-        let half = L::Int::splat(self.half_side());
-        let index = (axis * half + a.abs().shr(1)) * half + b.abs().shr(1);
-        let point = turn_back([-face.low(1), a, b], by_axis::<L>(axis));
-        (index, point.each(|i| i.lt(zero)))
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let zero = L::Int::splat(0);
+                let (cell, face) = self.unpack::<L>(code);
+                let axis = face.shr(1);
+                let [a, b] = cell.each(|i| i + i + L::Int::splat(1 - self.side));
+                let half = L::Int::splat(self.half_side());
+                let index = (axis * half + a.abs().shr(1)) * half + b.abs().shr(1);
+                let point = turn_back([-face.low(1), a, b], by_axis::<L>(axis));
+                (index, point.each(|i| i.lt(zero)))
+            },
+        )
     }
 }
 
@@ -365,9 +418,12 @@ impl<const BITS: u32> Symmetric for AngularCube<BITS> {
 fn div_rem<L: Lane, const D: i32>(n: L::Int) -> (L::Int, L::Int) {
     let d = L::Int::splat(D);
     // floor((n + 1/2) / D) is never within rounding of an integer.
-    let divide = |n: L::Int| {
-        ((L::from_int(n) + L::splat(0.5)) * L::splat(1.0 / D as f32)).floor().round_int()
-    };
+    let divide = inlined(
+        #[inline(always)]
+        |n: L::Int| {
+            ((L::from_int(n) + L::splat(0.5)) * L::splat(1.0 / D as f32)).floor().round_int()
+        },
+    );
     let high = divide(n.shr(16));
     let rest = (n.shr(16) - high * d).shl(16) + n.low(16);
     let low = divide(rest);

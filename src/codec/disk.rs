@@ -35,7 +35,7 @@
 use core::marker::PhantomData;
 
 use crate::formula::{Closest, Formula, One, Symmetric};
-use crate::lane::{Each, Lane, LaneInt, LaneMask};
+use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math::{
     atan2_half_turns, chord_squared, inv_sqrt, length_squared, normalize, sin_cos_half_turns, sqrt,
@@ -259,7 +259,10 @@ impl Stretch for Ellipse {
     fn to_square<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 2] {
         let skew = (x - y) * (x + y);
         let q = sqrt((skew * skew + d * L::splat(4.0)).greater(L::zero()));
-        let side = |c: L, sum: L| (c + c) * inv_sqrt(sum);
+        let side = inlined(
+            #[inline(always)]
+            |c: L, sum: L| (c + c) * inv_sqrt(sum),
+        );
         [side(x, L::splat(2.0) + skew + q), side(y, L::splat(2.0) - skew + q)]
     }
     #[inline(always)]
@@ -268,7 +271,10 @@ impl Stretch for Ellipse {
         let [du, dv] = square.each(|i| one_minus_square::<L>(i, m));
         let [u, v] = scaled::<L>(square, m);
         // 1 - v^2 / 2 = (1 + (1 - v^2)) / 2.
-        let side = |c: L, other: L| c * sqrt((L::splat(1.0) + other) * half);
+        let side = inlined(
+            #[inline(always)]
+            |c: L, other: L| c * sqrt((L::splat(1.0) + other) * half),
+        );
         let d = du * dv;
         OnDisk { x: side(u, dv), y: side(v, du), d, e: L::splat(1.0) + d }
     }
@@ -316,13 +322,16 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
         let (on_u, on_v) = (u.abs().eq(max), v.abs().eq(max));
         let equator = if S::CORNERS { (u * u + v * v).eq(max * max) } else { on_u | on_v };
         let upper = !point.lower | equator;
-        let pole = |side| {
-            if S::CORNERS && P::POLE_IN_CORNERS {
-                L::Int::select(on_u & on_v, max, side)
-            } else {
-                side
-            }
-        };
+        let pole = inlined(
+            #[inline(always)]
+            |side| {
+                if S::CORNERS && P::POLE_IN_CORNERS {
+                    L::Int::select(on_u & on_v, max, side)
+                } else {
+                    side
+                }
+            },
+        );
         let column = pole(point.column);
         [L::Int::select(upper, column, -column), pole(v)]
     }
@@ -346,11 +355,17 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
         let place = Self::params(v, false, m).0.each(|p| p.round_int());
         let near = Point::<L>::clamped(place[0], place[1], !point.lower, L::Int::splat(m));
         let [x, y, z] = Self::vector(&near, m);
-        let same = |a: L, b: L| a.to_bits().eq(b.to_bits());
+        let same = inlined(
+            #[inline(always)]
+            |a: L, b: L| a.to_bits().eq(b.to_bits()),
+        );
         let coincides = same(x, v[0]) & same(y, v[1]) & same(z, v[2]);
-        let pick = |double, near, own| {
-            L::Int::select(is_double, double, L::Int::select(coincides, near, own))
-        };
+        let pick = inlined(
+            #[inline(always)]
+            |double, near, own| {
+                L::Int::select(is_double, double, L::Int::select(coincides, near, own))
+            },
+        );
         let moves = is_double | coincides;
         Point {
             column: pick(double[0], near.column, point.column),
@@ -369,30 +384,35 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
     /// The parameters of the point nearest to a direction.
     #[inline(never)]
     fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L::Int; 2] {
-        let v = unit(v);
-        let lower = v[2].lt(L::zero());
-        let other = !lower;
-        let always = L::zero().le(L::zero());
-        let place = Self::params(v, false, m).0;
-        // What was decoded finds its own code at once.
-        let mut own = Search::<P, S, L>::to(v, m);
-        own.consider(always, place.each(|p| p.round_int()), lower);
-        if S::CORNERS {
-            let past = Self::params(v, true, m).0;
-            own.consider(always, past.each(|p| p.round_int()), other);
-        }
-        if own.closest.is_exact() {
-            return own.params();
-        }
-        let mut search = Search::<P, S, L>::to(v, m);
-        search.window(always, place, lower);
-        if S::SHEARED {
-            search.diagonals(v, place, lower);
-        }
-        if S::CORNERS {
-            search.outside(v, other);
-        }
-        search.params()
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let v = unit(v);
+                let lower = v[2].lt(L::zero());
+                let other = !lower;
+                let always = L::zero().le(L::zero());
+                let place = Self::params(v, false, m).0;
+                // What was decoded finds its own code at once.
+                let mut own = Search::<P, S, L>::to(v, m);
+                own.consider(always, place.each(|p| p.round_int()), lower);
+                if S::CORNERS {
+                    let past = Self::params(v, true, m).0;
+                    own.consider(always, past.each(|p| p.round_int()), other);
+                }
+                if own.closest.is_exact() {
+                    return own.params();
+                }
+                let mut search = Search::<P, S, L>::to(v, m);
+                search.window(always, place, lower);
+                if S::SHEARED {
+                    search.diagonals(v, place, lower);
+                }
+                if S::CORNERS {
+                    search.outside(v, other);
+                }
+                search.params()
+            },
+        )
     }
 }
 
@@ -462,15 +482,21 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
         if !near.any() {
             return;
         }
-        let out = |side: L| L::Int::select(side.lt(L::zero()), L::Int::splat(-1), L::Int::splat(1));
+        let out = inlined(
+            #[inline(always)]
+            |side: L| L::Int::select(side.lt(L::zero()), L::Int::splat(-1), L::Int::splat(1)),
+        );
         // A column is two rows wide.
         let step = [out(u), out(place[1]) + out(place[1])];
         let [column, row] = place.each(|p| p.round_int());
         let (zero, last) = (L::Int::splat(0), L::Int::splat(self.m));
         let m = self.m;
-        let distance = |[column, row]: [L::Int; 2]| {
-            chord_squared(Chart::<P, S>::vector(&Point { column, row, lower }, m), v)
-        };
+        let distance = inlined(
+            #[inline(always)]
+            |[column, row]: [L::Int; 2]| {
+                chord_squared(Chart::<P, S>::vector(&Point { column, row, lower }, m), v)
+            },
+        );
         let first = row - L::Int::splat(3);
         for beside in 0..7 {
             let row = first + L::Int::splat(beside);

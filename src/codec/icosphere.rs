@@ -24,7 +24,7 @@
 //! Source: id Software, "Quake II" (anorms.h), 1997, for the set; the numbering is ours.
 
 use crate::formula::{Formula, One};
-use crate::lane::{Each, Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::math::{chord_squared, normalize};
 
 /// The 162 vertices.
@@ -149,9 +149,12 @@ impl Formula for Icosphere {
         for (corner, point) in CORNERS.iter().zip(&POINTS) {
             // Half way between points f32 tells distances apart better than cosines.
             let distance = chord_squared(point.each(|c| L::splat(c)), target);
-            let add = |i: usize, signs: L::Int| {
-                if corner.point[i] > 0.0 { signs + signs + negative[i] } else { signs }
-            };
+            let add = inlined(
+                #[inline(always)]
+                |i: usize, signs: L::Int| {
+                    if corner.point[i] > 0.0 { signs + signs + negative[i] } else { signs }
+                },
+            );
             let signs = add(0, add(1, add(2, L::Int::splat(0))));
             let closer = distance.lt(least);
             code = L::Int::select(closer, signs + L::Int::splat(corner.code as i32), code);

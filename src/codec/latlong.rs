@@ -87,18 +87,23 @@ impl<P: Parallels> Formula for LatLong<P> {
 
     #[inline(never)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        let [theta, phi] = angles(v);
-        let (zero, last) = (L::Int::splat(0), L::Int::splat(P::LAST));
-        let mut closest = Closest::to(v);
-        for parallel in around(theta * L::splat(P::LAST as f32)) {
-            let parallel = parallel.max(zero).min(last);
-            let (begin, count) = P::band::<L>(parallel);
-            for k in around(phi * L::splat(0.5) * L::from_int(count)) {
-                let k = wrap::<L>(k, count);
-                closest.consider(begin + k, Self::point(parallel, k, count));
-            }
-        }
-        closest.code()
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let [theta, phi] = angles(v);
+                let (zero, last) = (L::Int::splat(0), L::Int::splat(P::LAST));
+                let mut closest = Closest::to(v);
+                for parallel in around(theta * L::splat(P::LAST as f32)) {
+                    let parallel = parallel.max(zero).min(last);
+                    let (begin, count) = P::band::<L>(parallel);
+                    for k in around(phi * L::splat(0.5) * L::from_int(count)) {
+                        let k = wrap::<L>(k, count);
+                        closest.consider(begin + k, Self::point(parallel, k, count));
+                    }
+                }
+                closest.code()
+            },
+        )
     }
 
     #[inline(always)]

@@ -20,7 +20,7 @@
 //! 2014.
 
 use crate::formula::{Formula, One, Symmetric, closest_of_four};
-use crate::lane::{Each, Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::layout::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
 use crate::math;
 
@@ -120,10 +120,13 @@ fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
     let k = L::Int::splat(m) - i - j;
     // Below the diagonals, fold back.
     let fold = (-k).max(L::Int::splat(0));
-    let copy_sign = |magnitude: L::Int, sign: L::Int| {
-        let s = sign.sar(31);
-        (magnitude ^ s) - s
-    };
+    let copy_sign = inlined(
+        #[inline(always)]
+        |magnitude: L::Int, sign: L::Int| {
+            let s = sign.sar(31);
+            (magnitude ^ s) - s
+        },
+    );
     let p = [copy_sign(i - fold, u), copy_sign(j - fold, w), k];
     math::normalize(p.each(|c| L::from_int(c) * L::splat(1.0 / m as f32)))
 }
@@ -182,10 +185,15 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        closest_of_four(v, Self::params(v), |indices| {
-            let point = Self::canonical_point::<L>(indices);
-            (Self::pack::<L>(point), unfold::<L>(point, Self::M))
-        })
+        closest_of_four(
+            v,
+            Self::params(v),
+            #[inline(always)]
+            |indices| {
+                let point = Self::canonical_point::<L>(indices);
+                (Self::pack::<L>(point), unfold::<L>(point, Self::M))
+            },
+        )
     }
 
     #[inline(always)]
@@ -206,7 +214,10 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
 pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
     let max = L::splat(m as f32);
     let one = L::splat(1.0);
-    let floor = p.each(|c| c.floor());
+    let floor = p.each(
+        #[inline(always)]
+        |c| c.floor(),
+    );
     // The triangle around p: one short of M above the floors, or two.
     let short = max - floor[0] - floor[1] - floor[2];
     let down = L::splat(1.5).lt(short);
@@ -214,19 +225,28 @@ pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
     let step = max - base[0] - base[1] - base[2];
     // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
     let pp = math::length_squared(p);
-    let corner = |axis: usize| {
-        let mut q = base;
-        q[axis] = q[axis] + step;
-        let d = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
-        let along = math::dot(p, d);
-        let off = math::length_squared(d) * pp - along * along;
-        (q, off, math::length_squared(q))
-    };
-    let closer = |a: ([L; 3], L, L), b: ([L; 3], L, L)| {
-        let b_wins = (b.1 * a.2).lt(a.1 * b.2);
-        let pick = |a, b| L::select(b_wins, b, a);
-        let q = [0, 1, 2].each(|i: usize| pick(a.0[i], b.0[i]));
-        (q, pick(a.1, b.1), pick(a.2, b.2))
-    };
+    let corner = inlined(
+        #[inline(always)]
+        |axis: usize| {
+            let mut q = base;
+            q[axis] = q[axis] + step;
+            let d = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
+            let along = math::dot(p, d);
+            let off = math::length_squared(d) * pp - along * along;
+            (q, off, math::length_squared(q))
+        },
+    );
+    let closer = inlined(
+        #[inline(always)]
+        |a: ([L; 3], L, L), b: ([L; 3], L, L)| {
+            let b_wins = (b.1 * a.2).lt(a.1 * b.2);
+            let pick = inlined(
+                #[inline(always)]
+                |a, b| L::select(b_wins, b, a),
+            );
+            let q = [0, 1, 2].each(|i: usize| pick(a.0[i], b.0[i]));
+            (q, pick(a.1, b.1), pick(a.2, b.2))
+        },
+    );
     closer(closer(corner(0), corner(1)), corner(2)).0
 }

@@ -17,7 +17,7 @@
 
 use crate::codec::oct::{nearest_on_octahedron, triangle_index, triangle_len};
 use crate::formula::{Formula, One, Symmetric};
-use crate::lane::{Each, Lane, LaneInt};
+use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::math::normalize;
 
 /// Baptista's 16 bits.
@@ -38,9 +38,12 @@ impl Octant {
         let zero = L::Int::splat(0);
         let k = L::Int::splat(M) - i - j;
         // Zero has no sign.
-        let sign = |negative: L::Mask, magnitude: L::Int, bit: u32| {
-            L::Int::select(negative & zero.lt(magnitude), L::Int::splat(1 << bit), zero)
-        };
+        let sign = inlined(
+            #[inline(always)]
+            |negative: L::Mask, magnitude: L::Int, bit: u32| {
+                L::Int::select(negative & zero.lt(magnitude), L::Int::splat(1 << bit), zero)
+            },
+        );
         let [x, y, z] = negative;
         let signs = sign(x, i, 15) | sign(y, j, 14) | sign(z, k, 13);
         let fold = L::Int::splat(63).lt(i);
@@ -71,7 +74,10 @@ impl Formula for Octant {
 
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
-        let [i, j, _] = Self::project(v).each(|c| c.floor().round_int());
+        let [i, j, _] = Self::project(v).each(
+            #[inline(always)]
+            |c| c.floor().round_int(),
+        );
         Self::pack::<L>([i, j], v.each(|c| c.lt(L::zero())))
     }
 
@@ -84,10 +90,13 @@ impl Formula for Octant {
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         let [i, j, k] = Self::magnitudes::<L>(code);
-        let signed = |magnitude: L::Int, bit: u32| {
-            let s = code.shl(31 - bit).sar(31);
-            L::from_int((magnitude ^ s) - s) * L::splat(1.0 / M as f32)
-        };
+        let signed = inlined(
+            #[inline(always)]
+            |magnitude: L::Int, bit: u32| {
+                let s = code.shl(31 - bit).sar(31);
+                L::from_int((magnitude ^ s) - s) * L::splat(1.0 / M as f32)
+            },
+        );
         normalize([signed(i, 15), signed(j, 14), signed(k, 13)])
     }
 

@@ -22,7 +22,7 @@ use core::marker::PhantomData;
 
 use crate::formula::{Closest, Formula, One, Symmetric};
 use crate::half;
-use crate::lane::{Each, Lane, LaneInt, LaneMask};
+use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
 use crate::layout::{pack2, unorm_max, unpack2};
 use crate::math::{inv_sqrt, normalize, sqrt};
 
@@ -135,7 +135,10 @@ impl Grid for Halves {
     }
     #[inline(always)]
     fn unpack<L: Lane>(code: L::Int) -> [L::Int; 2] {
-        [code, code.shr(16)].each(|bits| half::from_bits::<L>(bits, half::ONE))
+        [code, code.shr(16)].each(
+            #[inline(always)]
+            |bits| half::from_bits::<L>(bits, half::ONE),
+        )
     }
 }
 
@@ -159,9 +162,12 @@ impl<G: Grid> XyOnly<G> {
         let inside = L::zero().lt(G::height_squared::<L>(minor, near));
         let first = L::Int::select(inside, near + step, near);
         let first = first.max(L::Int::select(x_larger, minor, minor + step));
-        let signed = |magnitude: L::Int, sign: L::Int| {
-            L::Int::select(sign.lt(L::Int::splat(0)), -magnitude, magnitude)
-        };
+        let signed = inlined(
+            #[inline(always)]
+            |magnitude: L::Int, sign: L::Int| {
+                L::Int::select(sign.lt(L::Int::splat(0)), -magnitude, magnitude)
+            },
+        );
         let rim_x = signed(L::Int::select(x_larger, first, minor), x);
         let rim_y = signed(L::Int::select(x_larger, minor, first), y);
         [L::Int::select(beyond, rim_x, x), L::Int::select(beyond, rim_y, y)]
@@ -175,12 +181,15 @@ impl<G: Grid> XyOnly<G> {
         // One root serves both: z inside, the larger component on the rim.
         let root = sqrt(L::select(beyond, G::rim_squared::<L>(minor), height));
         let minor = G::value::<L>(minor);
-        let component = |larger: L::Mask, i: L::Int| {
-            let magnitude = L::select(larger, root, minor);
-            let negative = i.lt(L::Int::splat(0));
-            let on_rim = L::select(negative, -magnitude, magnitude);
-            L::select(beyond, on_rim, G::value::<L>(i))
-        };
+        let component = inlined(
+            #[inline(always)]
+            |larger: L::Mask, i: L::Int| {
+                let magnitude = L::select(larger, root, minor);
+                let negative = i.lt(L::Int::splat(0));
+                let on_rim = L::select(negative, -magnitude, magnitude);
+                L::select(beyond, on_rim, G::value::<L>(i))
+            },
+        );
         [component(x_larger, x), component(!x_larger, y), L::select(beyond, L::zero(), root)]
     }
 }
@@ -197,71 +206,88 @@ impl<G: Grid> Formula for XyOnly<G> {
 
     #[inline(never)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        let [x, y, z] = normalize(v);
-        // Walk along the greater component, whose steps are the coarser.
-        let swap = x.abs().lt(y.abs());
-        let (p, q) = (L::select(swap, y, x), L::select(swap, x, y));
-        let radius = sqrt(q * q + z * z);
-        let around = q / radius.greater(L::splat(1e-18));
-        let greatest = L::Int::splat(G::GREATEST);
-        let step = L::Int::splat(G::STEP);
+        L::compiled_for(
+            #[inline(always)]
+            || {
+                let [x, y, z] = normalize(v);
+                // Walk along the greater component, whose steps are the coarser.
+                let swap = x.abs().lt(y.abs());
+                let (p, q) = (L::select(swap, y, x), L::select(swap, x, y));
+                let radius = sqrt(q * q + z * z);
+                let around = q / radius.greater(L::splat(1e-18));
+                let greatest = L::Int::splat(G::GREATEST);
+                let step = L::Int::splat(G::STEP);
 
-        let mut closest = Closest::to(v);
-        let consider = |closest: &mut Closest<L>,
-                        counts: L::Mask,
-                        p_index: L::Int,
-                        q_index: L::Int| {
-            let xy =
-                [L::Int::select(swap, q_index, p_index), L::Int::select(swap, p_index, q_index)];
-            let xy = Self::canonical_point::<L>(xy.each(|i| i.max(-greatest).min(greatest)));
-            closest.consider_where(counts, G::pack::<L>(xy), Self::point::<L>(xy));
-        };
-        let neighbours = |value: L| {
-            let near = G::nearest(value);
-            let up = G::value::<L>(near).lt(value);
-            [near, near + L::Int::select(up, step, -step)]
-        };
-        // On the rim there is a point for each smaller component: x above and below the diagonals,
-        // y between them.
-        let always = L::zero().le(L::zero());
-        let to_rim = inv_sqrt((p * p + q * q).greater(L::splat(1e-30)));
-        let [rim_p, rim_q] = [p, q].each(|c| c * to_rim);
-        let diagonal = L::Int::splat(G::DIAGONAL);
-        let outside = |c: L| L::Int::select(c.lt(L::zero()), -greatest, greatest);
-        for q_index in neighbours(rim_q) {
-            let q_index = q_index.max(-diagonal).min(diagonal);
-            consider(&mut closest, always, outside(p), q_index);
-        }
-        for p_index in neighbours(rim_p) {
-            let p_index = p_index.max(-diagonal).min(diagonal);
-            consider(&mut closest, always, p_index, outside(q));
-        }
-        // Column after column, to both sides. The middle one may be further than the one on the
-        // other side of v.
-        let middle = G::nearest(p);
-        let (mut up, mut down) = (middle, middle);
-        let mut open = always;
-        while open.any() {
-            let mut any_open = up.eq(down);
-            for column in [up, down] {
-                let exists = !greatest.lt(column.abs());
-                let column = column.max(-greatest).min(greatest);
-                let column_radius = sqrt(G::rim_squared::<L>(column));
-                // No point of this column is nearer than this.
-                let (dp, dr) = (p - G::value::<L>(column), radius - column_radius);
-                let bound = dp * dp + dr * dr;
-                let counts = open & exists & bound.lt(closest.distance_squared());
-                any_open = any_open | counts;
-                if counts.any() {
-                    for q_index in neighbours(around * column_radius) {
-                        consider(&mut closest, counts, column, q_index);
-                    }
+                let mut closest = Closest::to(v);
+                let consider = inlined(
+                    #[inline(always)]
+                    |closest: &mut Closest<L>,
+                     counts: L::Mask,
+                     p_index: L::Int,
+                     q_index: L::Int| {
+                        let xy = [
+                            L::Int::select(swap, q_index, p_index),
+                            L::Int::select(swap, p_index, q_index),
+                        ];
+                        let xy =
+                            Self::canonical_point::<L>(xy.each(|i| i.max(-greatest).min(greatest)));
+                        closest.consider_where(counts, G::pack::<L>(xy), Self::point::<L>(xy));
+                    },
+                );
+                let neighbours = inlined(
+                    #[inline(always)]
+                    |value: L| {
+                        let near = G::nearest(value);
+                        let up = G::value::<L>(near).lt(value);
+                        [near, near + L::Int::select(up, step, -step)]
+                    },
+                );
+                // On the rim there is a point for each smaller component: x above and below the diagonals,
+                // y between them.
+                let always = L::zero().le(L::zero());
+                let to_rim = inv_sqrt((p * p + q * q).greater(L::splat(1e-30)));
+                let [rim_p, rim_q] = [p, q].each(|c| c * to_rim);
+                let diagonal = L::Int::splat(G::DIAGONAL);
+                let outside = inlined(
+                    #[inline(always)]
+                    |c: L| L::Int::select(c.lt(L::zero()), -greatest, greatest),
+                );
+                for q_index in neighbours(rim_q) {
+                    let q_index = q_index.max(-diagonal).min(diagonal);
+                    consider(&mut closest, always, outside(p), q_index);
                 }
-            }
-            open = open & any_open;
-            (up, down) = (up + step, down - step);
-        }
-        closest.code()
+                for p_index in neighbours(rim_p) {
+                    let p_index = p_index.max(-diagonal).min(diagonal);
+                    consider(&mut closest, always, p_index, outside(q));
+                }
+                // Column after column, to both sides. The middle one may be further than the one on the
+                // other side of v.
+                let middle = G::nearest(p);
+                let (mut up, mut down) = (middle, middle);
+                let mut open = always;
+                while open.any() {
+                    let mut any_open = up.eq(down);
+                    for column in [up, down] {
+                        let exists = !greatest.lt(column.abs());
+                        let column = column.max(-greatest).min(greatest);
+                        let column_radius = sqrt(G::rim_squared::<L>(column));
+                        // No point of this column is nearer than this.
+                        let (dp, dr) = (p - G::value::<L>(column), radius - column_radius);
+                        let bound = dp * dp + dr * dr;
+                        let counts = open & exists & bound.lt(closest.distance_squared());
+                        any_open = any_open | counts;
+                        if counts.any() {
+                            for q_index in neighbours(around * column_radius) {
+                                consider(&mut closest, counts, column, q_index);
+                            }
+                        }
+                    }
+                    open = open & any_open;
+                    (up, down) = (up + step, down - step);
+                }
+                closest.code()
+            },
+        )
     }
 
     #[inline(always)]

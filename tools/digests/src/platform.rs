@@ -6,12 +6,10 @@ pub use imp::line;
 #[cfg(unix)]
 mod imp {
     use core::fmt::{self, Write};
-    use core::panic::PanicInfo;
 
     #[link(name = "c")]
     unsafe extern "C" {
         fn write(file: i32, bytes: *const u8, len: usize) -> isize;
-        fn exit(status: i32) -> !;
     }
 
     struct File(i32);
@@ -34,17 +32,28 @@ mod imp {
         0
     }
 
-    #[panic_handler]
-    fn panic(info: &PanicInfo<'_>) -> ! {
-        // Nothing is left to do where even this fails.
-        let _ = writeln!(File(2), "{info}");
-        // SAFETY: ends the program.
-        unsafe { exit(101) }
-    }
+    /// What `std` brings where it is linked.
+    #[cfg(not(feature = "std"))]
+    mod without_std {
+        use core::fmt::Write;
+        use core::panic::PanicInfo;
 
-    /// The precompiled `core` names it; with `panic = "abort"` nothing calls it.
-    #[unsafe(no_mangle)]
-    extern "C" fn rust_eh_personality() {}
+        unsafe extern "C" {
+            fn exit(status: i32) -> !;
+        }
+
+        #[panic_handler]
+        fn panic(info: &PanicInfo<'_>) -> ! {
+            // Nothing is left to do where even this fails.
+            let _ = writeln!(super::File(2), "{info}");
+            // SAFETY: ends the program.
+            unsafe { exit(101) }
+        }
+
+        /// The precompiled `core` names it; with `panic = "abort"` nothing calls it.
+        #[unsafe(no_mangle)]
+        extern "C" fn rust_eh_personality() {}
+    }
 
     /// So do the unwinding tables of 32-bit Arm.
     #[cfg(target_arch = "arm")]

@@ -1,0 +1,36 @@
+//! Which lanes a loop runs on: the widest that the processor has.
+
+use crate::lane::Lane;
+use crate::lane8::F8;
+
+/// A loop over blocks of lanes, of any number.
+pub(crate) trait Job: Sized {
+    /// Does what fills whole blocks, and gives the rest.
+    fn run<L: Lane>(self) -> Self;
+}
+
+/// Whether this target has vectors that eight lanes can stand on. Without them one lane is quicker
+/// and smaller, and gives the same bits.
+const EIGHT_LANES: bool = cfg!(any(
+    target_feature = "sse2",
+    target_feature = "simd128",
+    all(target_arch = "aarch64", target_feature = "neon"),
+));
+
+/// Does a job, all of it.
+#[inline(always)]
+pub(crate) fn dispatch<J: Job>(job: J) {
+    #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
+    let Some(job) = crate::x86::dispatch(job) else { return };
+    if EIGHT_LANES {
+        finish(job.run::<F8>());
+    } else {
+        finish(job);
+    }
+}
+
+/// The rest of a job, lane by lane.
+#[inline(always)]
+pub(crate) fn finish<J: Job>(job: J) {
+    job.run::<f32>();
+}

@@ -1,0 +1,71 @@
+//! The vectors of this very processor, found when the program runs.
+//!
+//! `forbid(unsafe_code)` stops here, for one reason: a lane's operations take no token that its
+//! instructions exist, so [`Tier::token`] makes one of nothing.
+
+#![allow(unsafe_code)]
+
+use fearless_simd::{Avx2, Avx512, Level, Simd};
+
+use crate::dispatch::{Job, finish};
+use crate::lane_x86::{F8, F16};
+
+/// Instructions that the processor has.
+///
+/// A type that implements it is only named here, where the processor was asked, so that whoever
+/// calls these functions does so on such a processor.
+pub(crate) trait Tier: Copy + 'static {
+    type Simd: Simd;
+    fn token() -> Self::Simd;
+}
+
+#[derive(Clone, Copy)]
+struct HasAvx2;
+
+impl Tier for HasAvx2 {
+    type Simd = Avx2;
+    #[inline(always)]
+    fn token() -> Avx2 {
+        // SAFETY: see `Tier`.
+        unsafe { Avx2::assume_supported() }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct HasAvx512;
+
+impl Tier for HasAvx512 {
+    type Simd = Avx512;
+    #[inline(always)]
+    fn token() -> Avx512 {
+        // SAFETY: see `Tier`.
+        unsafe { Avx512::assume_supported() }
+    }
+}
+
+/// Does a job on the vectors of AVX-512 or AVX2, or gives it back where there are none.
+///
+/// `--cfg disable_dispatch_avx512` and `--cfg disable_dispatch_avx2` leave one out, as they do in
+/// `fearless_simd`.
+#[inline(always)]
+pub(crate) fn dispatch<J: Job>(job: J) -> Option<J> {
+    let level = Level::new();
+    if cfg!(not(disable_dispatch_avx512))
+        && let Some(avx512) = level.as_avx512()
+    {
+        avx512.vectorize(
+            #[inline(always)]
+            || finish(job.run::<F16<HasAvx512>>()),
+        );
+    } else if cfg!(not(disable_dispatch_avx2))
+        && let Some(avx2) = level.as_avx2()
+    {
+        avx2.vectorize(
+            #[inline(always)]
+            || finish(job.run::<F8<HasAvx2>>()),
+        );
+    } else {
+        return Some(job);
+    }
+    None
+}
