@@ -1,0 +1,294 @@
+//! `unitpack` beside what else there is: meshoptimizer's filters, the scalar encoder of Bevy's meshlets, a plain loop,
+//! `half`, and filling or copying the same memory. All contenders run in this process, in turns, and the best turn of
+//! each counts; what is said are ratios.
+//!
+//! ```text
+//! cargo run --release                        # oct16 and its peers, and the codecs beside oct
+//! cargo run --release -- --codecs            # every codec beside a loop over its function for one vector
+//! cargo run --release -- --picture oct16.svg # draws the first table as well
+//! ```
+
+mod codecs;
+mod contest;
+mod peers;
+mod picture;
+
+use std::cell::RefCell;
+use std::error::Error;
+use std::path::PathBuf;
+
+use contest::{Contest, timed};
+use half::f16;
+use half::slice::HalfFloatSliceExt;
+use lexopt::prelude::*;
+use unitpack::{
+    Codec, CrytekBfn24, EqAreaEllipse16, Float16x3, LatLong16D, LatLong32D, Oct16, Oct24, Oct32,
+    Snorm8x3, Soa, SoaMut, Spherical16,
+};
+
+/// Vectors that stay in the cache, and vectors that do not.
+const PLACES: [(&str, usize); 2] =
+    [("in cache, 16 Ki vectors", 16 << 10), ("from memory, 16 Mi vectors", 16 << 20)];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut picture: Option<PathBuf> = None;
+    let mut all = false;
+    let mut arguments = lexopt::Parser::from_env();
+    while let Some(argument) = arguments.next()? {
+        match argument {
+            Long("picture") => picture = Some(arguments.value()?.into()),
+            Long("codecs") => all = true,
+            _ => return Err(argument.unexpected().into()),
+        }
+    }
+    if all {
+        codecs::print(PLACES[0].1);
+        return Ok(());
+    }
+    let mut drawn = Vec::new();
+    for (place, len) in PLACES {
+        let data = Data::new(len);
+        for contest in [oct16_decode(&data), oct16_encode(&data)] {
+            drawn.push(contest.run(place));
+        }
+        halves(&data).run(place);
+    }
+    ratios(&Data::new(PLACES[0].1));
+    if let Some(path) = picture {
+        picture::draw(&path, &drawn)?;
+    }
+    Ok(())
+}
+
+/// Inputs, and memory for results.
+struct Data {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    aos: Vec<[f32; 3]>,
+    padded: Vec<[f32; 4]>,
+    out: RefCell<Out>,
+}
+
+struct Out {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    aos: Vec<[f32; 3]>,
+    padded: Vec<[f32; 4]>,
+}
+
+impl Data {
+    /// Directions uniform on the sphere.
+    fn new(len: usize) -> Self {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (state >> 40) as f32 / 16_777_216.0
+        };
+        let direction = |_| {
+            let (z, turn) = (2.0 * random() - 1.0, std::f32::consts::TAU * random());
+            let r = (1.0 - z * z).sqrt();
+            [r * turn.cos(), r * turn.sin(), z]
+        };
+        let aos: Vec<[f32; 3]> = (0..len).map(direction).collect();
+        let component = |i: usize| aos.iter().map(|v| v[i]).collect::<Vec<_>>();
+        let [x, y, z] = [0, 1, 2].map(component);
+        let padded: Vec<_> = aos.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect();
+        // Written to, so that the first turn does not pay for the pages.
+        let out = Out {
+            x: x.clone(),
+            y: y.clone(),
+            z: z.clone(),
+            aos: aos.clone(),
+            padded: padded.clone(),
+        };
+        Data { x, y, z, aos, padded, out: RefCell::new(out) }
+    }
+
+    fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    fn soa(&self) -> Soa<'_> {
+        Soa { x: &self.x, y: &self.y, z: &self.z }
+    }
+
+    fn codes<C: Codec>(&self) -> Vec<C::Code> {
+        let mut codes = self.zeroed::<C>();
+        C::encode_soa(self.soa(), &mut codes).unwrap();
+        codes
+    }
+
+    fn zeroed<C: Codec>(&self) -> Vec<C::Code> {
+        vec![C::encode([0.0, 0.0, 1.0]); self.len()]
+    }
+}
+
+impl Out {
+    fn soa(&mut self) -> SoaMut<'_> {
+        SoaMut { x: &mut self.x, y: &mut self.y, z: &mut self.z }
+    }
+}
+
+fn oct16_decode(data: &Data) -> Contest<'_> {
+    let codes = std::rc::Rc::new(data.codes::<Oct16>());
+    let with = |f: fn(&[u16], &mut Out)| {
+        let codes = codes.clone();
+        move || timed(|| f(&codes, &mut data.out.borrow_mut()))
+    };
+    let filter = peers::meshopt_codes(&data.padded);
+    let mut in_place = filter.clone();
+    Contest::new("decode oct16", data.len(), "unitpack, structure of arrays")
+        .add(
+            "fill the three arrays",
+            with(|_, out| {
+                out.x.fill(1.0);
+                out.y.fill(1.0);
+                out.z.fill(1.0);
+            }),
+        )
+        .add("copy three arrays", || {
+            let out = &mut *data.out.borrow_mut();
+            timed(|| {
+                out.x.copy_from_slice(&data.x);
+                out.y.copy_from_slice(&data.y);
+                out.z.copy_from_slice(&data.z);
+            })
+        })
+        .add(
+            "unitpack, structure of arrays",
+            with(|codes, out| Oct16::decode_soa(codes, out.soa()).unwrap()),
+        )
+        .add(
+            "unitpack, [f32; 3]",
+            with(|codes, out| Oct16::decode_aos(codes, &mut out.aos).unwrap()),
+        )
+        .add(
+            "unitpack, [f32; 4]",
+            with(|codes, out| Oct16::decode_aos(codes, &mut out.padded).unwrap()),
+        )
+        .add(
+            "unitpack, one at a time",
+            with(|codes, out| {
+                for (v, &code) in out.aos.iter_mut().zip(codes) {
+                    *v = Oct16::decode(code);
+                }
+            }),
+        )
+        .add(
+            "a plain loop",
+            with(|codes, out| {
+                for (v, &code) in out.aos.iter_mut().zip(codes) {
+                    *v = peers::plain_decode(code);
+                }
+            }),
+        )
+        .add("meshoptimizer, oct filter to snorm8", move || {
+            in_place.copy_from_slice(&filter);
+            timed(|| meshopt::decode_filter_oct(&mut in_place))
+        })
+}
+
+fn oct16_encode(data: &Data) -> Contest<'_> {
+    let codes = std::rc::Rc::new(RefCell::new(data.zeroed::<Oct16>()));
+    let with = |f: fn(&Data, &mut [u16])| {
+        let codes = codes.clone();
+        move || timed(|| f(data, &mut codes.borrow_mut()))
+    };
+    Contest::new("encode oct16", data.len(), "unitpack, structure of arrays")
+        .add(
+            "unitpack, structure of arrays",
+            with(|data, codes| Oct16::encode_soa(data.soa(), codes).unwrap()),
+        )
+        .add("unitpack, [f32; 3]", with(|data, codes| Oct16::encode_aos(&data.aos, codes).unwrap()))
+        .add(
+            "unitpack, [f32; 4]",
+            with(|data, codes| Oct16::encode_aos(&data.padded, codes).unwrap()),
+        )
+        .add(
+            "unitpack, precise",
+            with(|data, codes| Oct16::encode_soa_precise(data.soa(), codes).unwrap()),
+        )
+        .add(
+            "unitpack, one at a time",
+            with(|data, codes| {
+                for (code, &v) in codes.iter_mut().zip(&data.aos) {
+                    *code = Oct16::encode(v);
+                }
+            }),
+        )
+        .add(
+            "as in Bevy's meshlets",
+            with(|data, codes| {
+                for (code, &v) in codes.iter_mut().zip(&data.aos) {
+                    *code = peers::bevy_encode(v);
+                }
+            }),
+        )
+        .add("meshoptimizer, oct filter", || timed(|| peers::meshopt_codes(&data.padded)))
+}
+
+fn halves(data: &Data) -> Contest<'_> {
+    let codes = RefCell::new(data.zeroed::<Float16x3>());
+    let decoded = data.codes::<Float16x3>();
+    let numbers = RefCell::new([0, 1, 2].map(|_| vec![f16::ZERO; data.len()]));
+    let converted = [&data.x, &data.y, &data.z]
+        .map(|c| c.iter().map(|&c| f16::from_f32(c)).collect::<Vec<_>>());
+    Contest::new("f16", data.len(), "unitpack, decode float16x3")
+        .add("unitpack, encode float16x3", move || {
+            timed(|| Float16x3::encode_soa(data.soa(), &mut codes.borrow_mut()).unwrap())
+        })
+        .add("half, three slices from f32", move || {
+            timed(|| {
+                for (to, from) in numbers.borrow_mut().iter_mut().zip([&data.x, &data.y, &data.z]) {
+                    to.convert_from_f32_slice(from);
+                }
+            })
+        })
+        .add("unitpack, decode float16x3", move || {
+            timed(|| Float16x3::decode_soa(&decoded, data.out.borrow_mut().soa()).unwrap())
+        })
+        .add("half, three slices to f32", move || {
+            let out = &mut *data.out.borrow_mut();
+            timed(|| {
+                for (to, from) in [&mut out.x, &mut out.y, &mut out.z].into_iter().zip(&converted) {
+                    from.convert_to_f32_slice(to);
+                }
+            })
+        })
+}
+
+/// What other codecs cost beside oct of the same size.
+fn ratios(data: &Data) {
+    fn decode<'a, C: Codec>(contest: Contest<'a>, data: &'a Data) -> Contest<'a> {
+        let codes = data.codes::<C>();
+        contest.add(&format!("decode {}", C::FORMAT), move || {
+            timed(|| C::decode_soa(&codes, data.out.borrow_mut().soa()).unwrap())
+        })
+    }
+    fn encode<'a, C: Codec>(contest: Contest<'a>, data: &'a Data) -> Contest<'a> {
+        let mut codes = data.zeroed::<C>();
+        contest.add(&format!("encode {}", C::FORMAT), move || {
+            timed(|| C::encode_soa(data.soa(), &mut codes).unwrap())
+        })
+    }
+    fn precise<'a, C: Codec>(contest: Contest<'a>, data: &'a Data) -> Contest<'a> {
+        let mut codes = data.zeroed::<C>();
+        contest.add(&format!("precise {}", C::FORMAT), move || {
+            timed(|| C::encode_soa_precise(data.soa(), &mut codes).unwrap())
+        })
+    }
+    let place = PLACES[0].0;
+    let new = |title, of| Contest::new(title, data.len(), of);
+    let contest = decode::<Oct16>(new("decode, 16 bits", "decode oct16"), data);
+    let contest = decode::<Spherical16>(contest, data);
+    let contest = decode::<LatLong16D>(contest, data);
+    decode::<EqAreaEllipse16>(contest, data).run(place);
+    let contest = decode::<Oct32>(new("decode, 32 bits", "decode oct32"), data);
+    decode::<LatLong32D>(contest, data).run(place);
+    let contest = encode::<Oct24>(new("encode, 24 bits", "encode oct24"), data);
+    let contest = precise::<Oct24>(contest, data);
+    let contest = encode::<CrytekBfn24>(contest, data);
+    precise::<Snorm8x3>(contest, data).run(place);
+}
