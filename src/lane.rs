@@ -61,6 +61,8 @@ pub(crate) trait Lane:
     fn gather<T: Copy + Into<u32>>(table: &[T], index: Self::Int) -> Self::Int;
     /// Looks each lane's vector up. Beyond the end, zeros.
     fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3];
+    /// Of each index the element and the next, or two zeros where there is none.
+    fn gather_pair(table: &[u32], index: Self::Int) -> [Self::Int; 2];
 
     /// An integer read as unsigned.
     #[inline(always)]
@@ -295,6 +297,10 @@ impl Lane for f32 {
         Wrapping(look_up(table, index.0))
     }
     #[inline(always)]
+    fn gather_pair(table: &[u32], index: Self::Int) -> [Self::Int; 2] {
+        look_up_pair(table, index.0).map(Wrapping)
+    }
+    #[inline(always)]
     fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3] {
         look_up3(table, index.0)
     }
@@ -344,6 +350,13 @@ impl LaneMask for bool {
 #[inline(always)]
 pub(crate) fn look_up<T: Copy + Into<u32>>(table: &[T], index: i32) -> i32 {
     table.get(index as u32 as usize).map_or(0, |&t| t.into() as i32)
+}
+
+/// One lane of a gather of pairs.
+#[inline(always)]
+pub(crate) fn look_up_pair(table: &[u32], index: i32) -> [i32; 2] {
+    let from = table.get(index as u32 as usize..).and_then(|rest| rest.first_chunk());
+    from.map_or([0; 2], |&[a, b]: &[u32; 2]| [a as i32, b as i32])
 }
 
 /// One lane of a gather of vectors.

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use crate::lane::{Each, Lane, LaneInt, LaneMask, look_up, look_up3};
+use crate::lane::{Each, Lane, LaneInt, LaneMask, look_up, look_up_pair, look_up3};
 use bytemuck::cast;
 use wide::{f32x8, i32x8, u32x8};
 
@@ -128,6 +128,11 @@ impl Lane for F8 {
     #[inline(always)]
     fn gather<T: Copy + Into<u32>>(table: &[T], index: I8) -> I8 {
         I8(i32x8::new(index.0.to_array().map(|i| look_up(table, i))))
+    }
+    #[inline(always)]
+    fn gather_pair(table: &[u32], index: I8) -> [I8; 2] {
+        let pairs = index.0.to_array().map(|i| look_up_pair(table, i));
+        [0, 1].each(|i: usize| I8(i32x8::new(pairs.map(|pair| pair[i]))))
     }
     #[inline(always)]
     fn gather3(table: &[[f32; 3]], index: I8) -> [Self; 3] {

@@ -5,7 +5,7 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u32x8, u32x16};
 
-use crate::lane::{Lane, LaneInt, LaneMask, look_up, look_up3};
+use crate::lane::{Lane, LaneInt, LaneMask, look_up, look_up_pair, look_up3};
 use crate::x86::Tier;
 
 macro_rules! operators {
@@ -142,6 +142,14 @@ macro_rules! lanes {
                     *i = look_up(table, *i);
                 }
                 $int($i32s::simd_from(T::token(), ints))
+            }
+            #[inline(always)]
+            fn gather_pair(table: &[u32], index: $int<T>) -> [$int<T>; 2] {
+                let [mut a, mut b] = [[0; $n]; 2];
+                for ((a, b), i) in a.iter_mut().zip(&mut b).zip(*index.0) {
+                    [*a, *b] = look_up_pair(table, i);
+                }
+                [$int($i32s::simd_from(T::token(), a)), $int($i32s::simd_from(T::token(), b))]
             }
             #[inline(always)]
             fn gather3(table: &[[f32; 3]], index: $int<T>) -> [Self; 3] {

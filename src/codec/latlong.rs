@@ -41,9 +41,9 @@ pub(crate) trait Parallels: 'static {
     const LAST: i32;
     /// The index of a parallel's first point, and how many it has; the poles have one.
     fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int);
-    /// The parallel of an index and the point on it. What is beyond the last point is on the last
-    /// parallel.
-    fn find<L: Lane>(index: L::Int) -> (L::Int, L::Int);
+    /// Of an index the parallel, the point on it, and how many that has. What is beyond the last
+    /// point is on the last parallel.
+    fn find<L: Lane>(index: L::Int) -> [L::Int; 3];
 }
 
 /// Polar angle and azimuth in half turns, the azimuth from 0 to 2.
@@ -108,16 +108,14 @@ impl<P: Parallels> Formula for LatLong<P> {
 
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        let (parallel, k) = P::find::<L>(code);
-        let (_, count) = P::band::<L>(parallel);
+        let [parallel, k, count] = P::find::<L>(code);
         Self::point(parallel, wrap::<L>(k, count), count)
     }
 
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        let (parallel, k) = P::find::<L>(code);
-        let (begin, count) = P::band::<L>(parallel);
-        begin + wrap::<L>(k, count)
+        let [parallel, k, count] = P::find::<L>(code);
+        P::band::<L>(parallel).0 + wrap::<L>(k, count)
     }
 }
 
@@ -136,7 +134,7 @@ impl<const BITS: u32> Parallels for Even<BITS> {
     }
 
     #[inline(always)]
-    fn find<L: Lane>(index: L::Int) -> (L::Int, L::Int) {
+    fn find<L: Lane>(index: L::Int) -> [L::Int; 3] {
         // index = high 2^h + low = high N + (high + low), with N = 2^h - 1.
         let half = BITS / 2;
         let n = L::Int::splat(Self::N);
@@ -144,7 +142,8 @@ impl<const BITS: u32> Parallels for Even<BITS> {
         let k = high + low;
         let carry = !k.lt(n);
         let parallel = L::Int::select(carry, high + L::Int::splat(1), high);
-        (parallel.min(L::Int::splat(Self::LAST)), L::Int::select(carry, k - n, k))
+        let parallel = parallel.min(L::Int::splat(Self::LAST));
+        [parallel, L::Int::select(carry, k - n, k), Self::band::<L>(parallel).1]
     }
 }
 
@@ -163,12 +162,12 @@ where
 
     #[inline(always)]
     fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int) {
-        let begin = L::gather(Self::BEGINS, parallel);
-        (begin, L::gather(Self::BEGINS, parallel + L::Int::splat(1)) - begin)
+        let [begin, end] = L::gather_pair(Self::BEGINS, parallel);
+        (begin, end - begin)
     }
 
     #[inline(always)]
-    fn find<L: Lane>(index: L::Int) -> (L::Int, L::Int) {
+    fn find<L: Lane>(index: L::Int) -> [L::Int; 3] {
         let index = index.low(BITS);
         // The cap above the point has the area share (1 - cos theta) / 2 = sin^2(theta / 2).
         let total = L::Int::splat(const { Self::BEGINS[Self::BEGINS.len() - 1] as i32 });
@@ -183,6 +182,7 @@ where
         let step = L::Int::select(late, L::Int::splat(1), L::Int::splat(0));
         let parallel = L::Int::select(early, guess - L::Int::splat(1), guess + step);
         let parallel = parallel.max(L::Int::splat(0)).min(L::Int::splat(Self::LAST));
-        (parallel, index - Self::band::<L>(parallel).0)
+        let (begin, count) = Self::band::<L>(parallel);
+        [parallel, index - begin, count]
     }
 }
