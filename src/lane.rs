@@ -1,6 +1,6 @@
 //! The only arithmetic a formula may use, and its one-lane form.
 //!
-//! Every required method is exact in IEEE arithmetic (or on integers), so one lane and eight lanes
+//! Every required method is exact in IEEE arithmetic (or on integers), so one lane and many
 //! give the same bits on every target. What is approximate is written once, on top, here and in
 //! [`math`](crate::math).
 

@@ -12,9 +12,10 @@ use crate::lane_x86::{F8, F16};
 
 /// Instructions that the processor has.
 ///
-/// A type that implements it is only named here, where the processor was asked, so that whoever
-/// calls these functions does so on such a processor.
-pub(crate) trait Tier: Copy + 'static {
+/// # Safety
+/// A type that implements it is named only where the processor was asked, which is here, so that
+/// whoever calls these functions does so on such a processor.
+pub(crate) unsafe trait Tier: Copy + 'static {
     type Simd: Simd;
     fn token() -> Self::Simd;
 }
@@ -22,7 +23,8 @@ pub(crate) trait Tier: Copy + 'static {
 #[derive(Clone, Copy)]
 struct HasAvx2;
 
-impl Tier for HasAvx2 {
+// SAFETY: `dispatch` alone names it.
+unsafe impl Tier for HasAvx2 {
     type Simd = Avx2;
     #[inline(always)]
     fn token() -> Avx2 {
@@ -34,7 +36,8 @@ impl Tier for HasAvx2 {
 #[derive(Clone, Copy)]
 struct HasAvx512;
 
-impl Tier for HasAvx512 {
+// SAFETY: `dispatch` alone names it.
+unsafe impl Tier for HasAvx512 {
     type Simd = Avx512;
     #[inline(always)]
     fn token() -> Avx512 {

@@ -1,5 +1,5 @@
 //! Every entry point of a codec gives the same bits: one vector, structures of arrays, arrays of
-//! structures, bytes, transcoding, and with them eight lanes and one. The functions for one vector,
+//! structures, bytes, transcoding, and with them sixteen or eight lanes and one. The functions for one vector,
 //! which run on one lane, are the measure of the others.
 //!
 //! Random vectors rarely meet a tie, a fold or an odd zero, so the generators aim at those.
@@ -9,7 +9,7 @@ use std::marker::PhantomData;
 use std::ops::Range;
 
 use bytemuck::Pod;
-use proptest::array::{uniform3, uniform8};
+use proptest::array::{uniform3, uniform16};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -147,13 +147,13 @@ fn special() -> impl Strategy<Value = Vector> {
     prop_oneof![4 => edge, 1 => uniform3(component())]
 }
 
-/// Blocks in which every vector is special, and blocks of eight in which one is.
+/// Blocks in which every vector is special, and blocks of sixteen in which one is.
 fn batch() -> impl Strategy<Value = Vec<Vector>> {
-    let one = (uniform8(ordinary()), special(), 0..8usize).prop_map(|(mut block, v, lane)| {
+    let one = (uniform16(ordinary()), special(), 0..16usize).prop_map(|(mut block, v, lane)| {
         block[lane] = v;
         block.to_vec()
     });
-    prop_oneof![vec(special(), 0..=20), one]
+    prop_oneof![vec(special(), 0..=36), one]
 }
 
 /// The greatest size of a code.
@@ -163,7 +163,7 @@ const CODE: usize = 12;
 fn patterns() -> impl Strategy<Value = Vec<[u8; CODE]>> {
     let byte = || select(vec![0, 1, 0x3C, 0x7B, 0x7C, 0x7F, 0x80, 0x81, 0xBC, 0xFC, 0xFE, 0xFF]);
     let odd = vec(byte(), CODE).prop_map(|bytes| bytes.try_into().unwrap());
-    vec(prop_oneof![any::<[u8; CODE]>(), odd], 0..=20)
+    vec(prop_oneof![any::<[u8; CODE]>(), odd], 0..=36)
 }
 
 // ---- Codecs without their types ----

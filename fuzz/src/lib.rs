@@ -203,10 +203,10 @@ impl AnyCodec {
         }
     }
 
-    /// How many vectors, up to a hundred: few where the precise search takes up to 200 us for one
-    /// and not 10.
+    /// How many vectors, up to a hundred: a block and a bit where the precise search takes
+    /// up to 200 us for one and not 10.
     pub fn count(&self, bytes: &mut Bytes<'_>) -> usize {
-        bytes.length(if self.is_finer_than_f32() { 9 } else { 100 })
+        bytes.length(if self.is_finer_than_f32() { 18 } else { 100 })
     }
 
     /// Whether `f32` does not tell all codes apart: what decodes alike is then one direction.

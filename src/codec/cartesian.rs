@@ -303,14 +303,25 @@ impl<G: Grid> Cartesian<G> {
 /// [`Grid::representative`] where the values are integers over `steps`.
 #[inline(always)]
 fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i32) -> [L::Int; 3] {
-    let [x, y, z] = point.each(|i| L::from_int(i.abs()));
+    let [x, y, z] = point.each(
+        #[inline(always)]
+        |i| L::from_int(i.abs()),
+    );
     let divisor = gcd(gcd(x, y), z);
-    let primitive = point.each(|i| L::from_int(i) / divisor);
-    let values = [0, 1, 2].each(|i: usize| primitive[i] * L::splat(1.0 / steps[i]));
+    let primitive = point.each(
+        #[inline(always)]
+        |i| L::from_int(i) / divisor,
+    );
+    let values = [0, 1, 2].each(
+        #[inline(always)]
+        |i: usize| primitive[i] * L::splat(1.0 / steps[i]),
+    );
     // As many times as bring it nearest to 1, but not beyond the grid.
     let times = inv_sqrt(length_squared(values));
-    let room = [0, 1, 2]
-        .each(|i: usize| L::splat(steps[i] + 0.5) / primitive[i].abs().greater(L::splat(0.01)));
+    let room = [0, 1, 2].each(
+        #[inline(always)]
+        |i: usize| L::splat(steps[i] + 0.5) / primitive[i].abs().greater(L::splat(0.01)),
+    );
     let room = room[0].lesser(room[1]).lesser(room[2]);
     let times = if pitch == 1 {
         times.round().lesser(room.floor())
@@ -320,7 +331,10 @@ fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i
         let pairs = ((times - one) * half).round().lesser(((room - one) * half).floor());
         pairs + pairs + one
     };
-    primitive.each(|c| (c * times).round_int())
+    primitive.each(
+        #[inline(always)]
+        |c| (c * times).round_int(),
+    )
 }
 
 /// The greatest common divisor of integers from 0 to 2^16.

@@ -12,7 +12,7 @@ mod digest;
 mod inputs;
 mod platform;
 
-/// Eight blocks of eight lanes, and seven lanes alone. The crate takes at most 64 on the way to bytes.
+/// Four blocks of sixteen lanes or eight of eight, and seven lanes alone. The crate takes at most 64 on the way to bytes.
 const LEN: usize = 71;
 
 fn report() {
