@@ -6,7 +6,7 @@ use std::time::Duration;
 use unitpack::{Codec, Format, LengthMismatch, Soa, Visitor};
 
 use crate::contest::{Contest, timed};
-use crate::{Data, Out};
+use crate::{Data, Vectors};
 
 /// How many vectors are encoded precisely, which some codecs take long for.
 const PRECISE: usize = 256;
@@ -31,8 +31,8 @@ struct Row<'a> {
     few: &'a Data,
 }
 
-type Encode<C> = fn(Soa<'_>, &mut [Code<C>]) -> Result<(), LengthMismatch>;
-type Code<C> = <C as Codec>::Code;
+pub type Encode<C> = fn(Soa<'_>, &mut [Code<C>]) -> Result<(), LengthMismatch>;
+pub type Code<C> = <C as Codec>::Code;
 
 impl Visitor for Row<'_> {
     type Output = [[f64; 2]; 3];
@@ -52,7 +52,7 @@ fn decode<C: Codec>(data: &Data) -> [f64; 2] {
         .add("batch", || timed(|| C::decode_soa(&codes, data.out.borrow_mut().soa()).unwrap()))
         .add("loop", || {
             timed(|| {
-                let Out { x, y, z, .. } = &mut *data.out.borrow_mut();
+                let Vectors { x, y, z, .. } = &mut *data.out.borrow_mut();
                 for (((x, y), z), &code) in x.iter_mut().zip(y).zip(z).zip(&codes) {
                     [*x, *y, *z] = C::decode(code);
                 }
@@ -67,7 +67,7 @@ fn encode<C: Codec>(data: &Data, batch: Encode<C>, single: fn([f32; 3]) -> Code<
         .add("batch", || timed(|| batch(data.soa(), &mut codes.borrow_mut()).unwrap()))
         .add("loop", || {
             timed(|| {
-                for (code, &v) in codes.borrow_mut().iter_mut().zip(&data.aos) {
+                for (code, &v) in codes.borrow_mut().iter_mut().zip(&data.input.aos) {
                     *code = single(v);
                 }
             })

@@ -62,15 +62,13 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Inputs, and memory for results.
 struct Data {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    z: Vec<f32>,
-    aos: Vec<[f32; 3]>,
-    padded: Vec<[f32; 4]>,
-    out: RefCell<Out>,
+    input: Vectors,
+    out: RefCell<Vectors>,
 }
 
-struct Out {
+/// The same directions in each layout.
+#[derive(Clone)]
+struct Vectors {
     x: Vec<f32>,
     y: Vec<f32>,
     z: Vec<f32>,
@@ -96,22 +94,16 @@ impl Data {
         let [x, y, z] = [0, 1, 2].map(component);
         let padded: Vec<_> = aos.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect();
         // Written to, so that the first turn does not pay for the pages.
-        let out = Out {
-            x: x.clone(),
-            y: y.clone(),
-            z: z.clone(),
-            aos: aos.clone(),
-            padded: padded.clone(),
-        };
-        Data { x, y, z, aos, padded, out: RefCell::new(out) }
+        let input = Vectors { x, y, z, aos, padded };
+        Data { out: RefCell::new(input.clone()), input }
     }
 
     fn len(&self) -> usize {
-        self.x.len()
+        self.input.x.len()
     }
 
     fn soa(&self) -> Soa<'_> {
-        Soa { x: &self.x, y: &self.y, z: &self.z }
+        Soa { x: &self.input.x, y: &self.input.y, z: &self.input.z }
     }
 
     fn codes<C: Codec>(&self) -> Vec<C::Code> {
@@ -125,7 +117,7 @@ impl Data {
     }
 }
 
-impl Out {
+impl Vectors {
     fn soa(&mut self) -> SoaMut<'_> {
         SoaMut { x: &mut self.x, y: &mut self.y, z: &mut self.z }
     }
@@ -133,11 +125,11 @@ impl Out {
 
 fn oct16_decode(data: &Data) -> Contest<'_> {
     let codes = std::rc::Rc::new(data.codes::<Oct16>());
-    let with = |f: fn(&[u16], &mut Out)| {
+    let with = |f: fn(&[u16], &mut Vectors)| {
         let codes = codes.clone();
         move || timed(|| f(&codes, &mut data.out.borrow_mut()))
     };
-    let filter = peers::meshopt_codes(&data.padded);
+    let filter = peers::meshopt_codes(&data.input.padded);
     let mut in_place = filter.clone();
     Contest::new("decode oct16", data.len(), "unitpack, structure of arrays")
         .add(
@@ -151,9 +143,9 @@ fn oct16_decode(data: &Data) -> Contest<'_> {
         .add("copy three arrays", || {
             let out = &mut *data.out.borrow_mut();
             timed(|| {
-                out.x.copy_from_slice(&data.x);
-                out.y.copy_from_slice(&data.y);
-                out.z.copy_from_slice(&data.z);
+                out.x.copy_from_slice(&data.input.x);
+                out.y.copy_from_slice(&data.input.y);
+                out.z.copy_from_slice(&data.input.z);
             })
         })
         .add(
@@ -201,10 +193,13 @@ fn oct16_encode(data: &Data) -> Contest<'_> {
             "unitpack, structure of arrays",
             with(|data, codes| Oct16::encode_soa(data.soa(), codes).unwrap()),
         )
-        .add("unitpack, [f32; 3]", with(|data, codes| Oct16::encode_aos(&data.aos, codes).unwrap()))
+        .add(
+            "unitpack, [f32; 3]",
+            with(|data, codes| Oct16::encode_aos(&data.input.aos, codes).unwrap()),
+        )
         .add(
             "unitpack, [f32; 4]",
-            with(|data, codes| Oct16::encode_aos(&data.padded, codes).unwrap()),
+            with(|data, codes| Oct16::encode_aos(&data.input.padded, codes).unwrap()),
         )
         .add(
             "unitpack, precise",
@@ -213,7 +208,7 @@ fn oct16_encode(data: &Data) -> Contest<'_> {
         .add(
             "unitpack, one at a time",
             with(|data, codes| {
-                for (code, &v) in codes.iter_mut().zip(&data.aos) {
+                for (code, &v) in codes.iter_mut().zip(&data.input.aos) {
                     *code = Oct16::encode(v);
                 }
             }),
@@ -221,19 +216,19 @@ fn oct16_encode(data: &Data) -> Contest<'_> {
         .add(
             "as in Bevy's meshlets",
             with(|data, codes| {
-                for (code, &v) in codes.iter_mut().zip(&data.aos) {
+                for (code, &v) in codes.iter_mut().zip(&data.input.aos) {
                     *code = peers::bevy_encode(v);
                 }
             }),
         )
-        .add("meshoptimizer, oct filter", || timed(|| peers::meshopt_codes(&data.padded)))
+        .add("meshoptimizer, oct filter", || timed(|| peers::meshopt_codes(&data.input.padded)))
 }
 
 fn halves(data: &Data) -> Contest<'_> {
     let codes = RefCell::new(data.zeroed::<Float16x3>());
     let decoded = data.codes::<Float16x3>();
     let numbers = RefCell::new([0, 1, 2].map(|_| vec![f16::ZERO; data.len()]));
-    let converted = [&data.x, &data.y, &data.z]
+    let converted = [&data.input.x, &data.input.y, &data.input.z]
         .map(|c| c.iter().map(|&c| f16::from_f32(c)).collect::<Vec<_>>());
     Contest::new("f16", data.len(), "unitpack, decode float16x3")
         .add("unitpack, encode float16x3", move || {
@@ -241,7 +236,11 @@ fn halves(data: &Data) -> Contest<'_> {
         })
         .add("half, three slices from f32", move || {
             timed(|| {
-                for (to, from) in numbers.borrow_mut().iter_mut().zip([&data.x, &data.y, &data.z]) {
+                for (to, from) in numbers.borrow_mut().iter_mut().zip([
+                    &data.input.x,
+                    &data.input.y,
+                    &data.input.z,
+                ]) {
                     to.convert_from_f32_slice(from);
                 }
             })
@@ -267,16 +266,15 @@ fn ratios(data: &Data) {
             timed(|| C::decode_soa(&codes, data.out.borrow_mut().soa()).unwrap())
         })
     }
-    fn encode<'a, C: Codec>(contest: Contest<'a>, data: &'a Data) -> Contest<'a> {
+    fn encode<'a, C: Codec>(
+        contest: Contest<'a>,
+        data: &'a Data,
+        what: &str,
+        encode: codecs::Encode<C>,
+    ) -> Contest<'a> {
         let mut codes = data.zeroed::<C>();
-        contest.add(&format!("encode {}", C::FORMAT), move || {
-            timed(|| C::encode_soa(data.soa(), &mut codes).unwrap())
-        })
-    }
-    fn precise<'a, C: Codec>(contest: Contest<'a>, data: &'a Data) -> Contest<'a> {
-        let mut codes = data.zeroed::<C>();
-        contest.add(&format!("precise {}", C::FORMAT), move || {
-            timed(|| C::encode_soa_precise(data.soa(), &mut codes).unwrap())
+        contest.add(&format!("{what} {}", C::FORMAT), move || {
+            timed(|| encode(data.soa(), &mut codes).unwrap())
         })
     }
     let place = PLACES[0].0;
@@ -287,8 +285,9 @@ fn ratios(data: &Data) {
     decode::<EqAreaEllipse16>(contest, data).run(place);
     let contest = decode::<Oct32>(new("decode, 32 bits", "decode oct32"), data);
     decode::<LatLong32D>(contest, data).run(place);
-    let contest = encode::<Oct24>(new("encode, 24 bits", "encode oct24"), data);
-    let contest = precise::<Oct24>(contest, data);
-    let contest = encode::<CrytekBfn24>(contest, data);
-    precise::<Snorm8x3>(contest, data).run(place);
+    let contest = new("encode, 24 bits", "encode oct24");
+    let contest = encode::<Oct24>(contest, data, "encode", Oct24::encode_soa);
+    let contest = encode::<Oct24>(contest, data, "precise", Oct24::encode_soa_precise);
+    let contest = encode::<CrytekBfn24>(contest, data, "encode", CrytekBfn24::encode_soa);
+    encode::<Snorm8x3>(contest, data, "precise", Snorm8x3::encode_soa_precise).run(place);
 }
