@@ -7,7 +7,9 @@
 //!
 //! Decoding divides by the length, so a grid point stands for its direction, and the precise
 //! encoder may take any length: it tries every value of the largest component, rounding the other
-//! two, and keeps the nearest direction.
+//! two, and keeps the nearest direction. From each value to the next the other two components, in
+//! steps of the grid, grow by the same amount; in fixed point, with nothing before the point, what
+//! rounding leaves of them comes of one addition, which wraps.
 //!
 //! Canonical: of the patterns of one direction, such as (1, 1, 0) and (90, 90, 0), the one whose
 //! length is nearest to 1. That is the one rounding gives. On the grids that are finer than f32,
@@ -41,6 +43,9 @@ pub(crate) trait Grid: 'static {
     const DISTINCT: bool;
     /// From one grid point to the next, in steps.
     const PITCH: i32 = 1;
+    /// Points whose length is below steps / SHORTER need no search, as a multiple is a point: of whole
+    /// steps twice as long, of odd ones three times.
+    const SHORTER: i32 = Self::PITCH * (Self::PITCH + 1);
 
     /// The `n`th value for the largest component, `n` from 1 to [`LENGTHS`](Self::LENGTHS).
     #[inline(always)]
@@ -226,7 +231,7 @@ impl Grid for Halves {
                 L::from_int(mantissa) / lowest
             },
         );
-        let divisor = gcd(gcd(odd[0], odd[1]), odd[2]);
+        let divisor = gcd(odd);
         let primitive = values.each(|c| c / divisor);
         // So many times, and powers of two, keep all mantissas below 2^11.
         let room = (L::splat(2047.5) * divisor / odd[0].greater(odd[1]).greater(odd[2])).floor();
@@ -303,11 +308,10 @@ impl<G: Grid> Cartesian<G> {
 /// [`Grid::representative`] where the values are integers over `steps`.
 #[inline(always)]
 fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i32) -> [L::Int; 3] {
-    let [x, y, z] = point.each(
+    let divisor = gcd(point.each(
         #[inline(always)]
         |i| L::from_int(i.abs()),
-    );
-    let divisor = gcd(gcd(x, y), z);
+    ));
     let primitive = point.each(
         #[inline(always)]
         |i| L::from_int(i) / divisor,
@@ -337,16 +341,35 @@ fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i
     )
 }
 
-/// The greatest common divisor of integers from 0 to 2^16.
+/// The greatest common divisor of three integers from 0 to 2^16, not all of them zero.
 #[inline(always)]
-fn gcd<L: Lane>(mut a: L, mut b: L) -> L {
+fn gcd<L: Lane>([mut a, mut b, mut c]: [L; 3]) -> L {
     let zero = L::zero();
-    while zero.lt(b).any() {
-        let open = zero.lt(b);
-        let rest = a - (a / b.greater(L::splat(1.0))).floor() * b;
-        (a, b) = (L::select(open, b, a), L::select(open, rest, b));
+    loop {
+        let (least, most) = (b.lesser(c), b.greater(c));
+        if !zero.lt(most).any() {
+            return a;
+        }
+        // By the least that is not zero; what is left may be below zero.
+        let by = L::select(zero.lt(least), least, L::select(zero.lt(most), most, a));
+        let per = L::splat(1.0) / by;
+        let rest = inlined(
+            #[inline(always)]
+            |x: L| (x - (x * per).round() * by).abs(),
+        );
+        (a, b, c) = (by, rest(a), rest(most));
     }
-    a
+}
+
+/// Of fractions in 32 bits, one.
+const WRAP: f32 = 4_294_967_296.0;
+
+/// x in units of 2^-32, without what is before the point. For |x| < 2^10.
+#[inline(always)]
+fn wrapping_fraction<L: Lane>(x: L) -> L::Int {
+    let high = (x * L::splat(2048.0)).round();
+    let low = (x - high * L::splat(1.0 / 2048.0)) * L::splat(WRAP);
+    high.round_int().shl(21) + low.round_int()
 }
 
 /// One target, seen along its largest component.
@@ -356,8 +379,11 @@ struct Search<L: Lane> {
     slope: [L; 3],
     /// Their sum of squares.
     stretch: L,
-    /// From one grid point to the next on the axis of the largest component.
+    /// The steps on the axis of the largest component, and one step.
+    steps: L,
     step: L,
+    /// Whether that is x, or y.
+    largest: [L::Mask; 2],
     /// Of the other two axes the slope, the steps, and one step.
     others: [[L; 3]; 2],
 }
@@ -386,12 +412,14 @@ impl<L: Lane> Search<L> {
                 [0, 1, 2].each(|i: usize| L::select(mask, yes[i], no[i]))
             },
         );
-        let [_, _, step] = pick(is_x, on_x, pick(is_y, on_y, on_z));
+        let [_, steps, step] = pick(is_x, on_x, pick(is_y, on_y, on_z));
         Search {
             target,
             slope,
             stretch: length_squared(slope),
+            steps,
             step,
+            largest: [is_x, is_y],
             others: [pick(is_x, on_y, on_x), pick(is_x | is_y, on_z, on_y)],
         }
     }
@@ -407,7 +435,115 @@ impl<L: Lane> Search<L> {
         [sine * sine, L::select(sine.lt(L::splat(0.1)), off, L::splat(f32::INFINITY))]
     }
 
-    /// The nearest point of all lengths; of those that decode alike, the one whose length is
+    /// The nearest point of a grid of whole steps, or a multiple of it.
+    #[inline(always)]
+    fn nearest_whole<G: Grid>(&self) -> [L::Int; 3] {
+        let (mut point, sure) = self.nearest_corner::<G, false>();
+        if (!sure).any() {
+            let (nearest, _) = self.nearest_corner::<G, true>();
+            point = [0, 1, 2].each(
+                #[inline(always)]
+                |i: usize| L::Int::select(sure, point[i], nearest[i]),
+            );
+        }
+        point
+    }
+
+    /// At each length the target's ray passes a cell of the grid. Gives the nearest of the corners of
+    /// all cells, or unless `ALL` of those that rounding gives, and whether these are enough.
+    #[inline(always)]
+    fn nearest_corner<G: Grid, const ALL: bool>(&self) -> ([L::Int; 3], L::Mask) {
+        let most = G::STEPS[0];
+        let equal = G::STEPS[1] == most && G::STEPS[2] == most;
+        let [[p, p_steps, _], [q, q_steps, _]] = self.others;
+        let one = L::splat(1.0);
+        let lengths = G::LENGTHS + 1 - most as i32 / G::SHORTER;
+        let first = (self.steps * L::splat(1.0 / G::SHORTER as f32)).floor();
+        // How far the ray is from the rounded corner: fractions of 2^32 pitches, which wrap.
+        let rises = [p * (p_steps / self.steps), q * (q_steps / self.steps)];
+        let [mut a, mut b] = rises.each(
+            #[inline(always)]
+            |rise| {
+                let from = wrapping_fraction(rise) * first.round_int();
+                if G::PITCH == 1 {
+                    return from;
+                }
+                from - wrapping_fraction((rise + one) * L::splat(0.5))
+            },
+        );
+        let [rise_a, rise_b] = rises.each(wrapping_fraction);
+        // The square of the tangent of the angle between point and target, but for a factor, is
+        // (x (x + skew y) + other y^2) / (length - (x lean_x + y lean_y))^2.
+        let unit = L::splat(G::PITCH as f32 / WRAP);
+        let ratio = p_steps / q_steps;
+        let scale = one + q * q;
+        let skew = -(p * q + p * q) / scale * ratio;
+        let other = (one + p * p) / scale * (ratio * ratio);
+        let lean = unit * self.steps / self.stretch;
+        let (lean_x, lean_y) = (lean * p / p_steps, lean * q / q_steps);
+        let (mut square, mut along) = (L::splat(f32::MAX), one);
+        let (mut length, mut off) = (one, [L::zero(); 2]);
+        let mut n = first;
+        for _ in 0..lengths {
+            let here = G::length(n, one);
+            let mut consider = inlined(
+                #[inline(always)]
+                |x: L, y: L| {
+                    let across = x * (x + skew * y) + other * y * y;
+                    let reach = here - (x * lean_x + y * lean_y);
+                    let reach = reach * reach;
+                    let mut nearer = (across * along).lt(square * reach);
+                    if !equal {
+                        nearer = nearer & here.le(self.steps);
+                    }
+                    square = L::select(nearer, across, square);
+                    along = L::select(nearer, reach, along);
+                    length = L::select(nearer, here, length);
+                    if ALL {
+                        off = [L::select(nearer, x, off[0]), L::select(nearer, y, off[1])];
+                    }
+                },
+            );
+            let [x, y] = [a, b].each(L::from_int);
+            consider(x, y);
+            if ALL {
+                let [far_x, far_y] = [x, y].each(
+                    #[inline(always)]
+                    |x| x - L::splat(WRAP).negate_where_negative(x),
+                );
+                consider(far_x, y);
+                consider(x, far_y);
+                consider(far_x, far_y);
+            }
+            (n, a, b) = (n + one, a + rise_a, b + rise_b);
+        }
+        let at = length * self.step;
+        let ideal = self.slope.each(
+            #[inline(always)]
+            |s| s * at,
+        );
+        let [x, y] = [off[0] * unit / p_steps, off[1] * unit / q_steps];
+        let [is_x, is_y] = self.largest;
+        let zero = L::zero();
+        let off = [
+            L::select(is_x, zero, x),
+            L::select(is_x, x, L::select(is_y, zero, y)),
+            L::select(is_x | is_y, y, zero),
+        ];
+        let point = [0, 1, 2].each(
+            #[inline(always)]
+            |i: usize| ideal[i] - off[i],
+        );
+        let point = Cartesian::<G>::nearest(point);
+        // What is no rounded corner is at least half a pitch off on one axis.
+        let tangent = unit * self.steps / (p_steps * self.stretch);
+        let tangent_squared = tangent * tangent * scale * square / along;
+        let steepest = one + (p * p).greater(q * q);
+        let half = L::splat(0.23 * (G::PITCH * G::PITCH) as f32 / (most * most));
+        (point, (tangent_squared * self.stretch * steepest).lt(half))
+    }
+
+    /// The nearest point of a grid finer than f32; of those that decode alike, the one whose length is
     /// nearest to 1.
     #[inline(always)]
     fn nearest<G: Grid>(&self) -> [L::Int; 3] {
@@ -416,7 +552,8 @@ impl<L: Lane> Search<L> {
         let mut off_unit = L::splat(4.0);
         let per_stretch = L::splat(1.0) / self.stretch;
         let [mut within, mut reach] = self.bounds(distance);
-        for n in (1..=G::LENGTHS).rev() {
+        let first = (G::STEPS[0] as i32 / G::SHORTER).max(1);
+        for n in (first..=G::LENGTHS).rev() {
             let length = G::length(L::splat(n as f32), self.step);
             let [a, b] = self.others.each(
                 #[inline(always)]
@@ -446,8 +583,8 @@ impl<L: Lane> Search<L> {
                     let near =
                         across.le(length_squared(values) * within) & length.le(L::splat(1.0));
                     if near.any() {
-                        // Where f32 does not tell neighbours apart, only canonical points compete.
-                        let point = if G::DISTINCT { point } else { G::representative::<L>(point) };
+                        // As f32 does not tell neighbours apart, only canonical points compete.
+                        let point = G::representative::<L>(point);
                         let values = Cartesian::<G>::values::<L>(point);
                         let there = chord_squared(Cartesian::<G>::unit(values), self.target);
                         let off = (sqrt(length_squared(values)) - L::splat(1.0)).abs();
@@ -484,10 +621,6 @@ impl<L: Lane> Search<L> {
                     consider(point);
                 }
             }
-            // What was decoded ends at its own code.
-            if G::DISTINCT && !L::zero().lt(distance).any() {
-                break;
-            }
         }
         found
     }
@@ -506,8 +639,12 @@ impl<G: Grid> Formula for Cartesian<G> {
         L::compiled_for(
             #[inline(always)]
             || {
-                let point = Search::new::<G>(v).nearest::<G>();
-                let point = if G::DISTINCT { G::representative::<L>(point) } else { point };
+                let search = Search::new::<G>(v);
+                let point = if G::DISTINCT {
+                    G::representative::<L>(search.nearest_whole::<G>())
+                } else {
+                    search.nearest::<G>()
+                };
                 G::pack::<L>(point)
             },
         )
