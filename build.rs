@@ -90,11 +90,12 @@ fn latlong_bands() -> String {
     let mut code = String::new();
     for (bits, parallels, e) in LATLONG_D {
         let mut begin = 0u64;
-        let mut begins = vec![0];
+        let mut begins = vec![0, 0];
         for count in points(parallels, e.to_radians()) {
             begin += u64::from(count);
             begins.push(begin);
         }
+        begins.push(begin);
         assert!(begin <= 1 << bits, "latlong{bits}D has {begin} points");
         writeln!(
             code,

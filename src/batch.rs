@@ -4,10 +4,11 @@ use core::marker::PhantomData;
 
 use bytemuck::Pod;
 
-use crate::dispatch::{Job, dispatch};
+use crate::dispatch::{Job, dispatch, finish};
 use crate::error::LengthMismatch;
 use crate::formula::{Formula, Packed, Stored};
 use crate::lane::Lane;
+use crate::streaming::{self, Fence};
 use crate::{Codec, Visitor};
 
 /// Vectors to read, as a structure of arrays. All three slices have one element per vector.
@@ -32,8 +33,9 @@ pub struct SoaMut<'a> {
     pub z: &'a mut [f32],
 }
 
-/// How many vectors a detour over the stack takes at a time.
-pub(crate) const STAGE: usize = 64;
+/// How many vectors a detour over the stack takes at a time: more where that is no matter, as each
+/// time asks for the processor's lanes.
+pub(crate) const STAGE: usize = if cfg!(feature = "std") { 256 } else { 64 };
 
 /// Which of a formula's encoders.
 trait Encoder {
@@ -81,20 +83,6 @@ fn encode_block<E: Encoder, F: Formula, C: Stored<F::Words>, L: Lane>(
 ) {
     let v = F::prepare([L::load(x), L::load(y), L::load(z)]);
     C::store::<L>(E::encode::<F, L>(v), codes);
-}
-
-#[inline(always)]
-fn decode_block<D: Decoder<C>, C: Copy, L: Lane>(
-    decoder: &D,
-    codes: &L::Block<C>,
-    x: &mut L::Block<f32>,
-    y: &mut L::Block<f32>,
-    z: &mut L::Block<f32>,
-) {
-    let v = decoder.decode::<L>(codes);
-    v[0].store(x);
-    v[1].store(y);
-    v[2].store(z);
 }
 
 #[inline(always)]
@@ -188,20 +176,44 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
         codes: &'a [C],
         v: SoaMut<'a>,
     }
+    impl<D: Decoder<C>, C: Copy + 'static> DecodeAll<'_, D, C> {
+        /// Decodes lane by lane until `x` is aligned, and so, if they begin alike, `y` and `z`.
+        fn align(self) -> Self {
+            let DecodeAll { decoder, codes, v: SoaMut { x, y, z } } = self;
+            let n = x.as_ptr().align_offset(streaming::ALIGNMENT).min(codes.len());
+            let (first_codes, codes) = codes.split_at(n);
+            let ((first_x, x), (first_y, y), (first_z, z)) =
+                (x.split_at_mut(n), y.split_at_mut(n), z.split_at_mut(n));
+            finish(DecodeAll {
+                decoder,
+                codes: first_codes,
+                v: SoaMut { x: first_x, y: first_y, z: first_z },
+            });
+            DecodeAll { decoder, codes, v: SoaMut { x, y, z } }
+        }
+    }
     impl<D: Decoder<C>, C: Copy + 'static> Job for DecodeAll<'_, D, C> {
         #[inline(always)]
         fn run<L: Lane>(self) -> Self {
             let DecodeAll { decoder, codes, v: SoaMut { x, y, z } } = self;
+            let fence = Fence::new(3 * size_of_val(x));
             let ((xs, x), (ys, y), (zs, z)) = (L::split_mut(x), L::split_mut(y), L::split_mut(z));
             let (blocks, codes) = L::split(codes);
             for (((codes, x), y), z) in blocks.iter().zip(xs).zip(ys).zip(zs) {
-                decode_block::<D, C, L>(decoder, codes, x, y, z);
+                let v = decoder.decode::<L>(codes);
+                v[0].stream(x, &fence);
+                v[1].stream(y, &fence);
+                v[2].stream(z, &fence);
             }
             DecodeAll { decoder, codes, v: SoaMut { x, y, z } }
         }
     }
     LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
-    dispatch(DecodeAll { decoder, codes, v });
+    let mut job = DecodeAll { decoder, codes, v };
+    if Fence::new(3 * size_of_val(job.v.x)).streams() {
+        job = job.align();
+    }
+    dispatch(job);
     Ok(())
 }
 
@@ -268,18 +280,59 @@ impl Stage {
 
     #[inline(always)]
     fn gather<const N: usize>(&mut self, vectors: &[[f32; N]]) {
-        let places = self.x.iter_mut().zip(&mut self.y).zip(&mut self.z);
-        for (v, ((x, y), z)) in vectors.iter().zip(places) {
-            (*x, *y, *z) = (v[0], v[1], v[2]);
-        }
+        dispatch(Gather { vectors, v: self.write(vectors.len()) });
     }
 
     #[inline(always)]
     fn scatter<const N: usize>(&self, vectors: &mut [[f32; N]]) {
-        let places = self.x.iter().zip(&self.y).zip(&self.z);
-        for (v, ((x, y), z)) in vectors.iter_mut().zip(places) {
-            (v[0], v[1], v[2]) = (*x, *y, *z);
+        dispatch(Scatter { v: self.read(vectors.len()), vectors });
+    }
+}
+
+/// From an array of structures to a structure of arrays.
+struct Gather<'a, const N: usize> {
+    vectors: &'a [[f32; N]],
+    v: SoaMut<'a>,
+}
+
+impl<const N: usize> Job for Gather<'_, N> {
+    // It has no operations that rearrange lanes; the compiler does better with a plain loop.
+    const WIDE: bool = false;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self {
+        let Gather { vectors, v: SoaMut { x, y, z } } = self;
+        let ((xs, x), (ys, y), (zs, z)) = (L::split_mut(x), L::split_mut(y), L::split_mut(z));
+        let (blocks, vectors) = L::split(vectors);
+        for (((vectors, x), y), z) in blocks.iter().zip(xs).zip(ys).zip(zs) {
+            let v = L::load_vectors(vectors);
+            v[0].store(x);
+            v[1].store(y);
+            v[2].store(z);
         }
+        Gather { vectors, v: SoaMut { x, y, z } }
+    }
+}
+
+/// From a structure of arrays to an array of structures.
+struct Scatter<'a, const N: usize> {
+    v: Soa<'a>,
+    vectors: &'a mut [[f32; N]],
+}
+
+impl<const N: usize> Job for Scatter<'_, N> {
+    // It has no operations that rearrange lanes; the compiler does better with a plain loop.
+    const WIDE: bool = false;
+
+    #[inline(always)]
+    fn run<L: Lane>(self) -> Self {
+        let Scatter { v: Soa { x, y, z }, vectors } = self;
+        let ((xs, x), (ys, y), (zs, z)) = (L::split(x), L::split(y), L::split(z));
+        let (blocks, vectors) = L::split_mut(vectors);
+        for (((x, y), z), vectors) in xs.iter().zip(ys).zip(zs).zip(blocks) {
+            L::store_vectors([L::load(x), L::load(y), L::load(z)], vectors);
+        }
+        Scatter { v: Soa { x, y, z }, vectors }
     }
 }
 

@@ -5,6 +5,9 @@ use crate::lane8::F8;
 
 /// A loop over blocks of lanes, of any number.
 pub(crate) trait Job: Sized {
+    /// Whether eight lanes of `wide` are quicker than one.
+    const WIDE: bool = true;
+
     /// Does what fills whole blocks, and gives the rest.
     fn run<L: Lane>(self) -> Self;
 }
@@ -22,7 +25,7 @@ const EIGHT_LANES: bool = cfg!(any(
 pub(crate) fn dispatch<J: Job>(job: J) {
     #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
     let Some(job) = crate::x86::dispatch(job) else { return };
-    if EIGHT_LANES {
+    if EIGHT_LANES && J::WIDE {
         finish(job.run::<F8>());
     } else {
         finish(job);

@@ -7,6 +7,8 @@
 use core::num::Wrapping;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
+use crate::streaming::Fence;
+
 /// 1.5 * 2^23: adding it rounds to an integer, ties to even, which then stands in the low mantissa bits.
 const ROUNDER: f32 = 12_582_912.0;
 
@@ -40,6 +42,11 @@ pub(crate) trait Lane:
     fn splat(x: f32) -> Self;
     fn load(block: &Self::Block<f32>) -> Self;
     fn store(self, block: &mut Self::Block<f32>);
+    /// Stores, past the caches if the fence is for that and the block is aligned.
+    #[inline(always)]
+    fn stream<'a>(self, block: &'a mut Self::Block<f32>, _: &Fence<'a>) {
+        self.store(block);
+    }
     /// Integers computed from the elements of a block.
     fn load_int<T: Copy + 'static>(block: &Self::Block<T>, f: impl Fn(T) -> u32) -> Self::Int;
     /// Writes integers, converted, to the elements of a block.
@@ -49,9 +56,25 @@ pub(crate) trait Lane:
         f: impl Fn(&mut T, u32),
     );
 
+    /// The first three components of a block of vectors.
+    #[inline(always)]
+    fn load_vectors<const N: usize>(block: &Self::Block<[f32; N]>) -> [Self; 3] {
+        [0, 1, 2].each(
+            #[inline(always)]
+            |i: usize| Self::from_bits(Self::load_int(block, |v| v[i].to_bits())),
+        )
+    }
+    /// Writes the first three components of a block of vectors.
+    #[inline(always)]
+    fn store_vectors<const N: usize>(v: [Self; 3], block: &mut Self::Block<[f32; N]>) {
+        for (i, c) in v.into_iter().enumerate() {
+            Self::store_int(c.to_bits(), block, |v, bits| v[i] = f32::from_bits(bits));
+        }
+    }
+
     fn from_bits(bits: Self::Int) -> Self;
     fn to_bits(self) -> Self::Int;
-    /// Exact for |i| <= 2^24.
+    /// Nearest number, ties to even; exact for |i| <= 2^24.
     fn from_int(i: Self::Int) -> Self;
 
     fn lt(self, other: Self) -> Self::Mask;
@@ -61,8 +84,8 @@ pub(crate) trait Lane:
     fn gather<T: Copy + Into<u32>>(table: &[T], index: Self::Int) -> Self::Int;
     /// Looks each lane's vector up. Beyond the end, zeros.
     fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3];
-    /// Of each index the element and the next, or two zeros where there is none.
-    fn gather_pair(table: &[u32], index: Self::Int) -> [Self::Int; 2];
+    /// Of each index the element and the three after it, or zeros where there are none.
+    fn gather4(table: &[u32], index: Self::Int) -> [Self::Int; 4];
 
     /// An integer read as unsigned.
     #[inline(always)]
@@ -297,8 +320,8 @@ impl Lane for f32 {
         Wrapping(look_up(table, index.0))
     }
     #[inline(always)]
-    fn gather_pair(table: &[u32], index: Self::Int) -> [Self::Int; 2] {
-        look_up_pair(table, index.0).map(Wrapping)
+    fn gather4(table: &[u32], index: Self::Int) -> [Self::Int; 4] {
+        look_up4(table, index.0).map(Wrapping)
     }
     #[inline(always)]
     fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3] {
@@ -352,11 +375,11 @@ pub(crate) fn look_up<T: Copy + Into<u32>>(table: &[T], index: i32) -> i32 {
     table.get(index as u32 as usize).map_or(0, |&t| t.into() as i32)
 }
 
-/// One lane of a gather of pairs.
+/// One lane of a gather of four in a row.
 #[inline(always)]
-pub(crate) fn look_up_pair(table: &[u32], index: i32) -> [i32; 2] {
+pub(crate) fn look_up4(table: &[u32], index: i32) -> [i32; 4] {
     let from = table.get(index as u32 as usize..).and_then(|rest| rest.first_chunk());
-    from.map_or([0; 2], |&[a, b]: &[u32; 2]| [a as i32, b as i32])
+    from.map_or([0; 4], |four: &[u32; 4]| bytemuck::cast(*four))
 }
 
 /// One lane of a gather of vectors.

@@ -5,7 +5,7 @@
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use crate::lane::{Each, Lane, LaneInt, LaneMask, look_up, look_up_pair, look_up3};
+use crate::lane::{Each, Lane, LaneInt, LaneMask, look_up, look_up3, look_up4};
 use bytemuck::cast;
 use wide::{f32x8, i32x8, u32x8};
 
@@ -130,9 +130,9 @@ impl Lane for F8 {
         I8(i32x8::new(index.0.to_array().map(|i| look_up(table, i))))
     }
     #[inline(always)]
-    fn gather_pair(table: &[u32], index: I8) -> [I8; 2] {
-        let pairs = index.0.to_array().map(|i| look_up_pair(table, i));
-        [0, 1].each(|i: usize| I8(i32x8::new(pairs.map(|pair| pair[i]))))
+    fn gather4(table: &[u32], index: I8) -> [I8; 4] {
+        let fours = index.0.to_array().map(|i| look_up4(table, i));
+        [0, 1, 2, 3].map(|i: usize| I8(i32x8::new(fours.map(|four| four[i]))))
     }
     #[inline(always)]
     fn gather3(table: &[[f32; 3]], index: I8) -> [Self; 3] {

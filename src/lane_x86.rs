@@ -2,10 +2,12 @@
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
+use bytemuck::cast_slice;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u32x8, u32x16};
 
-use crate::lane::{Lane, LaneInt, LaneMask, look_up, look_up_pair, look_up3};
+use crate::lane::{Lane, LaneInt, LaneMask, look_up, look_up3, look_up4};
+use crate::streaming::{Fence, Streaming};
 use crate::x86::Tier;
 
 macro_rules! operators {
@@ -64,7 +66,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: Tier> Lane for $float<T> {
+        impl<T: Tier<Simd: Streaming<$n>>> Lane for $float<T> {
             type Int = $int<T>;
             type Mask = $mask<T>;
             type Block<B: Copy + 'static> = [B; $n];
@@ -92,6 +94,25 @@ macro_rules! lanes {
             #[inline(always)]
             fn store(self, block: &mut [f32; $n]) {
                 *block = *self.0;
+            }
+            #[inline(always)]
+            fn stream<'a>(self, block: &'a mut [f32; $n], fence: &Fence<'a>) {
+                T::token().stream(*self.0, block, fence);
+            }
+            #[inline(always)]
+            fn load_vectors<const N: usize>(block: &[[f32; N]; $n]) -> [Self; 3] {
+                $int::columns::<N, 3>(cast_slice(block.as_flattened())).map(Self::from_bits)
+            }
+            #[inline(always)]
+            fn store_vectors<const N: usize>([x, y, z]: [Self; 3], block: &mut [[f32; N]; $n]) {
+                let (rows, _) = block.as_flattened_mut().as_chunks_mut();
+                for (row, [pick_y, pick_z, keep]) in
+                    rows.iter_mut().zip(&Shuffle::<N, $n, { 4 * $n }>::STORE)
+                {
+                    let xyz = x.0.concat_swizzle_dyn(y.0, *pick_y).concat_swizzle_dyn(z.0, *pick_z);
+                    let old = $f32s::simd_from(T::token(), *row);
+                    *row = if N == 3 { *xyz } else { *xyz.concat_swizzle_dyn(old, *keep) };
+                }
             }
             #[inline(always)]
             fn load_int<B: Copy + 'static>(block: &[B; $n], f: impl Fn(B) -> u32) -> $int<T> {
@@ -144,21 +165,36 @@ macro_rules! lanes {
                 $int($i32s::simd_from(T::token(), ints))
             }
             #[inline(always)]
-            fn gather_pair(table: &[u32], index: $int<T>) -> [$int<T>; 2] {
-                let [mut a, mut b] = [[0; $n]; 2];
-                for ((a, b), i) in a.iter_mut().zip(&mut b).zip(*index.0) {
-                    [*a, *b] = look_up_pair(table, i);
+            fn gather4(table: &[u32], index: $int<T>) -> [$int<T>; 4] {
+                let mut rows = [[0; 4]; $n];
+                for (row, i) in rows.iter_mut().zip(*index.0) {
+                    *row = look_up4(table, i);
                 }
-                [$int($i32s::simd_from(T::token(), a)), $int($i32s::simd_from(T::token(), b))]
+                $int::columns::<4, 4>(rows.as_flattened())
             }
             #[inline(always)]
             fn gather3(table: &[[f32; 3]], index: $int<T>) -> [Self; 3] {
-                let [mut x, mut y, mut z] = [[0.0; $n]; 3];
-                let places = x.iter_mut().zip(&mut y).zip(&mut z);
-                for (((x, y), z), i) in places.zip(*index.0) {
-                    [*x, *y, *z] = look_up3(table, i);
+                let mut rows = [[0.0; 3]; $n];
+                for (row, i) in rows.iter_mut().zip(*index.0) {
+                    *row = look_up3(table, i);
                 }
-                [Self::load(&x), Self::load(&y), Self::load(&z)]
+                Self::load_vectors(&rows)
+            }
+        }
+
+        impl<T: Tier> $int<T> {
+            /// The first `C` of `N` columns; as many rows as lanes stand one after the other.
+            #[inline(always)]
+            fn columns<const N: usize, const C: usize>(rows: &[i32]) -> [Self; C] {
+                let mut columns = [$i32s::splat(T::token(), 0); C];
+                let (parts, _) = rows.as_chunks();
+                for (part, picks) in parts.iter().zip(&Shuffle::<N, $n, { 4 * $n }>::LOAD) {
+                    let part = $i32s::simd_from(T::token(), *part);
+                    for (column, pick) in columns.iter_mut().zip(picks) {
+                        *column = column.concat_swizzle_dyn(part, *pick);
+                    }
+                }
+                columns.map(Self)
             }
         }
 
@@ -203,6 +239,53 @@ macro_rules! lanes {
             }
         }
     };
+}
+
+/// Which bytes of two vectors of `LANES` lanes make one, on the way from or to `LANES` vectors of `N`
+/// components, which stand in `N` rows.
+struct Shuffle<const N: usize, const LANES: usize, const BYTES: usize>;
+
+impl<const N: usize, const LANES: usize, const BYTES: usize> Shuffle<N, LANES, BYTES> {
+    /// For each row: of a component what is collected already, and from the row what it has of it.
+    const LOAD: [[[u8; BYTES]; N]; N] = {
+        let mut picks = [[[0; BYTES]; N]; N];
+        let mut i = 0;
+        while i < N * LANES {
+            let (row, component, lane) = (i / LANES, i % N, i / N);
+            // In this row it is found, in those after it kept.
+            let mut later = row;
+            while later < N {
+                let from = if later == row { LANES + i % LANES } else { lane };
+                put(&mut picks[later][component], lane, from);
+                later += 1;
+            }
+            i += 1;
+        }
+        picks
+    };
+    /// For each row: of x and y, then of that and z, then of that and what the row has.
+    const STORE: [[[u8; BYTES]; 3]; N] = {
+        let mut picks = [[[0; BYTES]; 3]; N];
+        let mut i = 0;
+        while i < N * LANES {
+            let (row, place, component, lane) = (i / LANES, i % LANES, i % N, i / N);
+            let [y, z, old] = &mut picks[row];
+            put(y, place, if component == 1 { LANES + lane } else { lane });
+            put(z, place, if component == 2 { LANES + lane } else { place });
+            put(old, place, if component > 2 { LANES + place } else { place });
+            i += 1;
+        }
+        picks
+    };
+}
+
+/// Picks lane `from` for lane `to`.
+const fn put(picks: &mut [u8], to: usize, from: usize) {
+    let mut byte = 0;
+    while byte < 4 {
+        picks[4 * to + byte] = (4 * from + byte) as u8;
+        byte += 1;
+    }
 }
 
 lanes!(8, F8: f32x8, I8: i32x8 | u32x8, M8: mask32x8);

@@ -24,6 +24,7 @@ pub mod low_dimensions;
 mod math;
 pub mod packing;
 pub mod scalar;
+mod streaming;
 #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
 mod x86;
 

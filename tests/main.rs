@@ -7,6 +7,7 @@ mod axes;
 mod decode_table;
 mod exhaustive;
 mod golden;
+mod large;
 mod low_dimensions;
 mod max_error;
 mod packing;

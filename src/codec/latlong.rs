@@ -22,7 +22,7 @@
 use core::marker::PhantomData;
 
 use crate::formula::{Closest, Formula, One, around};
-use crate::lane::{Lane, LaneInt};
+use crate::lane::{Lane, LaneInt, inlined};
 use crate::layout::unorm_max;
 use crate::math::{atan2_half_turns, sin_cos_half_turns, sqrt};
 
@@ -147,7 +147,8 @@ impl<const BITS: u32> Parallels for Even<BITS> {
     }
 }
 
-/// Where each parallel begins, and at the end how many points there are.
+/// Where each parallel begins, with that of the one before the first, 0, and, twice, how many points
+/// there are.
 pub(crate) trait Table: 'static {
     const BEGINS: &'static [u32];
 }
@@ -158,11 +159,11 @@ impl<const BITS: u32> Parallels for Spaced<BITS>
 where
     Self: Table,
 {
-    const LAST: i32 = Self::BEGINS.len() as i32 - 2;
+    const LAST: i32 = Self::BEGINS.len() as i32 - 4;
 
     #[inline(always)]
     fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int) {
-        let [begin, end] = L::gather_pair(Self::BEGINS, parallel);
+        let [_, begin, end, _] = L::gather4(Self::BEGINS, parallel);
         (begin, end - begin)
     }
 
@@ -176,13 +177,17 @@ where
         let theta = atan2_half_turns(sqrt(above), sqrt(below));
         let guess = (theta * L::splat(2.0 * Self::LAST as f32)).round_int();
         // One off at most.
-        let (begin, count) = Self::band::<L>(guess);
+        let [before, begin, end, after] = L::gather4(Self::BEGINS, guess);
         let early = index.below(begin);
-        let late = !(index - begin).below(count) & !early;
-        let step = L::Int::select(late, L::Int::splat(1), L::Int::splat(0));
-        let parallel = L::Int::select(early, guess - L::Int::splat(1), guess + step);
-        let parallel = parallel.max(L::Int::splat(0)).min(L::Int::splat(Self::LAST));
-        let (begin, count) = Self::band::<L>(parallel);
+        let late = !index.below(end) & guess.lt(L::Int::splat(Self::LAST));
+        let pick = inlined(
+            #[inline(always)]
+            |at, before, after| L::Int::select(early, before, L::Int::select(late, after, at)),
+        );
+        let one = L::Int::splat(1);
+        let parallel = pick(guess, guess - one, guess + one);
+        let (begin, end) = (pick(begin, before, end), pick(end, begin, after));
+        let count = end - begin;
         [parallel, index - begin, count]
     }
 }

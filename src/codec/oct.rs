@@ -116,18 +116,15 @@ pub(crate) fn triangle_index<L: Lane>(i: L::Int, j: L::Int) -> L::Int {
 /// The vector of a point of the square from -m to m.
 #[inline(always)]
 fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
+    let (max, zero) = (L::Int::splat(m), L::Int::splat(0));
     let (i, j) = (u.abs(), w.abs());
-    let k = L::Int::splat(m) - i - j;
-    // Below the diagonals, fold back.
-    let fold = (-k).max(L::Int::splat(0));
+    let (left_i, left_j) = (max - j, max - i);
     let copy_sign = inlined(
         #[inline(always)]
-        |magnitude: L::Int, sign: L::Int| {
-            let s = sign.sar(31);
-            (magnitude ^ s) - s
-        },
+        |magnitude: L::Int, sign: L::Int| L::Int::select(sign.lt(zero), -magnitude, magnitude),
     );
-    let p = [copy_sign(i - fold, u), copy_sign(j - fold, w), k];
+    // Below the diagonals, where more is left over than is there, fold back.
+    let p = [copy_sign(i.min(left_i), u), copy_sign(j.min(left_j), w), left_i - i];
     math::normalize(p.each(|c| L::from_int(c) * L::splat(1.0 / m as f32)))
 }
 
