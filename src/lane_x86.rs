@@ -7,7 +7,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u32x8, u32x16};
 
 use crate::lane::{Lane, LaneInt, LaneMask, look_up, look_up3, look_up4};
-use crate::streaming::{Fence, Streaming};
+use crate::stores_x86::Streaming;
+use crate::streaming::Fence;
 use crate::x86::Tier;
 
 macro_rules! operators {

@@ -24,6 +24,8 @@ pub mod low_dimensions;
 mod math;
 pub mod packing;
 pub mod scalar;
+#[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
+mod stores_x86;
 mod streaming;
 #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
 mod x86;
