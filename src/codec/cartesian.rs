@@ -471,7 +471,10 @@ impl<L: Lane> Search<L> {
                 from - wrapping_fraction((rise + one) * L::splat(0.5))
             },
         );
-        let [rise_a, rise_b] = rises.each(wrapping_fraction);
+        let [rise_a, rise_b] = rises.each(
+            #[inline(always)]
+            |rise| wrapping_fraction(rise),
+        );
         // The square of the tangent of the angle between point and target, but for a factor, is
         // (x (x + skew y) + other y^2) / (length - (x lean_x + y lean_y))^2.
         let unit = L::splat(G::PITCH as f32 / WRAP);
@@ -481,14 +484,15 @@ impl<L: Lane> Search<L> {
         let other = (one + p * p) / scale * (ratio * ratio);
         let lean = unit * self.steps / self.stretch;
         let (lean_x, lean_y) = (lean * p / p_steps, lean * q / q_steps);
-        let (mut square, mut along) = (L::splat(f32::MAX), one);
-        let (mut length, mut off) = (one, [L::zero(); 2]);
+        // With it the length, x and y.
+        let mut best = [L::splat(f32::MAX), one, one, L::zero(), L::zero()];
         let mut n = first;
         for _ in 0..lengths {
             let here = G::length(n, one);
-            let mut consider = inlined(
+            let consider = inlined(
                 #[inline(always)]
-                |x: L, y: L| {
+                |best: &mut [L; 5], x: L, y: L| {
+                    let [square, along, ..] = *best;
                     let across = x * (x + skew * y) + other * y * y;
                     let reach = here - (x * lean_x + y * lean_y);
                     let reach = reach * reach;
@@ -496,33 +500,31 @@ impl<L: Lane> Search<L> {
                     if !equal {
                         nearer = nearer & here.le(self.steps);
                     }
-                    square = L::select(nearer, across, square);
-                    along = L::select(nearer, reach, along);
-                    length = L::select(nearer, here, length);
-                    if ALL {
-                        off = [L::select(nearer, x, off[0]), L::select(nearer, y, off[1])];
+                    for (best, now) in best.iter_mut().zip([across, reach, here, x, y]) {
+                        *best = L::select(nearer, now, *best);
                     }
                 },
             );
             let [x, y] = [a, b].each(L::from_int);
-            consider(x, y);
+            consider(&mut best, x, y);
             if ALL {
                 let [far_x, far_y] = [x, y].each(
                     #[inline(always)]
                     |x| x - L::splat(WRAP).negate_where_negative(x),
                 );
-                consider(far_x, y);
-                consider(x, far_y);
-                consider(far_x, far_y);
+                consider(&mut best, far_x, y);
+                consider(&mut best, x, far_y);
+                consider(&mut best, far_x, far_y);
             }
             (n, a, b) = (n + one, a + rise_a, b + rise_b);
         }
+        let [square, along, length, x, y] = best;
         let at = length * self.step;
         let ideal = self.slope.each(
             #[inline(always)]
             |s| s * at,
         );
-        let [x, y] = [off[0] * unit / p_steps, off[1] * unit / q_steps];
+        let [x, y] = if ALL { [x * unit / p_steps, y * unit / q_steps] } else { [L::zero(); 2] };
         let [is_x, is_y] = self.largest;
         let zero = L::zero();
         let off = [
