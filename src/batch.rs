@@ -201,9 +201,15 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
             let (blocks, codes) = L::split(codes);
             for (((codes, x), y), z) in blocks.iter().zip(xs).zip(ys).zip(zs) {
                 let v = decoder.decode::<L>(codes);
-                v[0].stream(x, &fence);
-                v[1].stream(y, &fence);
-                v[2].stream(z, &fence);
+                if fence.streams() {
+                    v[0].stream(x, &fence);
+                    v[1].stream(y, &fence);
+                    v[2].stream(z, &fence);
+                } else {
+                    v[0].store(x);
+                    v[1].store(y);
+                    v[2].store(z);
+                }
             }
             DecodeAll { decoder, codes, v: SoaMut { x, y, z } }
         }

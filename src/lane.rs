@@ -42,7 +42,7 @@ pub(crate) trait Lane:
     fn splat(x: f32) -> Self;
     fn load(block: &Self::Block<f32>) -> Self;
     fn store(self, block: &mut Self::Block<f32>);
-    /// Stores, past the caches if the fence is for that and the block is aligned.
+    /// Stores, past the caches if the block is aligned for that.
     #[inline(always)]
     fn stream<'a>(self, block: &'a mut Self::Block<f32>, _: &Fence<'a>) {
         self.store(block);

@@ -16,7 +16,7 @@ use crate::streaming::Fence;
 
 /// A processor, by its token, that streams blocks of `N`.
 pub(crate) trait Streaming<const N: usize> {
-    /// Streams to an aligned block, if stores stream.
+    /// Streams to an aligned block, and stores to any other.
     fn stream<'a>(self, from: [f32; N], to: &'a mut [f32; N], fence: &Fence<'a>);
 }
 
@@ -24,9 +24,9 @@ macro_rules! streaming {
     ($token:ty, $n:literal: $load:ident, $stream:ident) => {
         impl Streaming<$n> for $token {
             #[inline(always)]
-            fn stream<'a>(self, from: [f32; $n], to: &'a mut [f32; $n], fence: &Fence<'a>) {
+            fn stream<'a>(self, from: [f32; $n], to: &'a mut [f32; $n], _: &Fence<'a>) {
                 let address = to.as_mut_ptr();
-                if !fence.streams() || address.addr() % size_of_val(to) != 0 {
+                if address.addr() % size_of_val(to) != 0 {
                     *to = from;
                     return;
                 }

@@ -12,7 +12,7 @@ const LARGE: usize = 32 << 20;
 /// What streaming stores need to be aligned to.
 pub(crate) const ALIGNMENT: usize = 64;
 
-/// Whether stores stream. Those that do are seen late and in any order, also by the thread itself,
+/// Whether stores should stream. Those that do are seen late and in any order, also by the thread itself,
 /// until this is dropped; it keeps what they go to borrowed so long.
 pub(crate) struct Fence<'a> {
     streams: bool,

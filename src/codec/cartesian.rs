@@ -327,7 +327,17 @@ fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i
         |i: usize| L::splat(steps[i] + 0.5) / primitive[i].abs().greater(L::splat(0.01)),
     );
     let room = room[0].lesser(room[1]).lesser(room[2]);
-    let times = if pitch == 1 {
+    let times = if steps[2] < steps[0] {
+        // Too close for f32 between twice and three times (244, 328, 9) of snorm11-11-10, for one.
+        let less = times.floor();
+        let half_more = (less + less).round_int() + L::Int::splat(1);
+        let primitive = primitive.each(
+            #[inline(always)]
+            |c| c.round_int(),
+        );
+        let more = is_below_two::<L>(primitive, half_more, steps);
+        L::select(more, less + L::splat(1.0), less).lesser(room.floor())
+    } else if pitch == 1 {
         times.round().lesser(room.floor())
     } else {
         // Odd points have only odd multiples.
@@ -339,6 +349,29 @@ fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i
         #[inline(always)]
         |c| (c * times).round_int(),
     )
+}
+
+/// Whether so many times a point is shorter than 2, exactly, where z has fewer steps than x and y.
+#[inline(always)]
+fn is_below_two<L: Lane>(point: [L::Int; 3], times: L::Int, steps: [f32; 3]) -> L::Mask {
+    // In steps of x, with (most / least)^2 = whole + rest / least^2:
+    // (x^2 + y^2 + whole z^2 + rest z^2 / least^2) times^2 < 4 most^2.
+    let [most, least] = [steps[0] as i64, steps[2] as i64].map(|steps| steps * steps);
+    let (whole, rest) = (most / least, most % least);
+    let int = inlined(
+        #[inline(always)]
+        |i: i64| L::Int::splat(i as i32),
+    );
+    let square = times * times;
+    let [x, y, z] = point.each(
+        #[inline(always)]
+        |i| i * i * square,
+    );
+    // Below zero it decides, but for the rest, which is added to no more than that can outweigh.
+    let over = x + y + z * int(whole) - int(4 * most);
+    let least_over = -(rest * (4 * most / whole) / least + 1);
+    let over_with_rest = over.max(int(least_over)) * int(least) + z * int(rest);
+    over.lt(int(0)) & over_with_rest.lt(int(0))
 }
 
 /// The greatest common divisor of three integers from 0 to 2^16, not all of them zero.
