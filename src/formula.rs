@@ -134,7 +134,15 @@ pub(crate) fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
     const GREATEST: f32 = 1.099_511_6e12; // 2^40
     let magnitude = magnitude(v);
     let usual = L::splat(LEAST).le(magnitude) & magnitude.le(L::splat(GREATEST));
-    if (!usual).any() { mend(v, magnitude, usual) } else { v }
+    let [x, y, z] = v;
+    // In registers, but where the call wants them in memory.
+    let (x, y, z) = if (!usual).any() {
+        let [x, y, z] = mend([x, y, z], magnitude, usual);
+        (x, y, z)
+    } else {
+        (x, y, z)
+    };
+    [x, y, z]
 }
 
 /// The greatest |component|; NaN if there is one.
