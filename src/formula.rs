@@ -118,13 +118,19 @@ macro_rules! stored {
 stored!(u8: One, u32::from, |c, i| *c = i as u8);
 stored!(u16: One, u32::from, |c, i| *c = i as u16);
 stored!(u32: One, |c| c, |c, i| *c = i);
-stored!(
-    [u8; 3]: One,
-    |[a, b, c]| u32::from_le_bytes([a, b, c, 0]),
-    |[a, b, c]: &mut [u8; 3], i| [*a, *b, *c, _] = i.to_le_bytes()
-);
 stored!(u16: Three);
 stored!(u32: Three);
+
+impl Stored<One> for [u8; 3] {
+    #[inline(always)]
+    fn load<L: Lane>(block: &L::Block<Self>) -> L::Int {
+        L::load_bytes(block)
+    }
+    #[inline(always)]
+    fn store<L: Lane>(code: L::Int, block: &mut L::Block<Self>) {
+        L::store_bytes(code, block);
+    }
+}
 
 /// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become +Z, +Z, the limit
 /// direction, and `v` times a power of two.

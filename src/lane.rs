@@ -56,6 +56,16 @@ pub(crate) trait Lane:
         f: impl Fn(&mut T, u32),
     );
 
+    /// Integers of three bytes, little-endian.
+    #[inline(always)]
+    fn load_bytes(block: &Self::Block<[u8; 3]>) -> Self::Int {
+        Self::load_int(block, |[a, b, c]| u32::from_le_bytes([a, b, c, 0]))
+    }
+    /// Writes the low three bytes of integers, little-endian.
+    #[inline(always)]
+    fn store_bytes(int: Self::Int, block: &mut Self::Block<[u8; 3]>) {
+        Self::store_int(int, block, |[a, b, c], i| [*a, *b, *c, _] = i.to_le_bytes());
+    }
     /// The first three components of a block of vectors.
     #[inline(always)]
     fn load_vectors<const N: usize>(block: &Self::Block<[f32; N]>) -> [Self; 3] {

@@ -4,7 +4,9 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use bytemuck::cast_slice;
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u32x8, u32x16};
+use fearless_simd::{
+    f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u8x32, u8x64, u32x8, u32x16,
+};
 
 use crate::lane::{Lane, LaneInt, LaneMask, look_up, look_up3, look_up4};
 use crate::stores_x86::Streaming;
@@ -27,7 +29,7 @@ macro_rules! lanes {
     (
         $n:literal,
         $float:ident: $f32s:ident,
-        $int:ident: $i32s:ident | $u32s:ident,
+        $int:ident: $i32s:ident | $u32s:ident | $u8s:ident,
         $mask:ident: $mask32s:ident
     ) => {
         #[derive(Clone, Copy)]
@@ -99,6 +101,28 @@ macro_rules! lanes {
             #[inline(always)]
             fn stream<'a>(self, block: &'a mut [f32; $n], fence: &Fence<'a>) {
                 T::token().stream(*self.0, block, fence);
+            }
+            #[inline(always)]
+            fn load_bytes(block: &[[u8; 3]; $n]) -> $int<T> {
+                // AVX2 has no permutation of all bytes.
+                if $n == 8 {
+                    return Self::load_int(block, |[a, b, c]| u32::from_le_bytes([a, b, c, 0]));
+                }
+                let mut bytes = [0; 4 * $n];
+                for (to, from) in bytes.iter_mut().zip(block.as_flattened()) {
+                    *to = *from;
+                }
+                let pick: [u8; 4 * $n] = const { spread() };
+                $int($u8s::simd_from(T::token(), bytes).swizzle_dyn_precise(pick).bitcast())
+            }
+            #[inline(always)]
+            fn store_bytes(int: $int<T>, block: &mut [[u8; 3]; $n]) {
+                let bytes: $u8s<T::Simd> = int.0.bitcast();
+                let pick: [u8; 4 * $n] = const { dense() };
+                for (to, from) in block.as_flattened_mut().iter_mut().zip(*bytes.swizzle_dyn(pick))
+                {
+                    *to = from;
+                }
             }
             #[inline(always)]
             fn load_vectors<const N: usize>(block: &[[f32; N]; $n]) -> [Self; 3] {
@@ -280,6 +304,30 @@ impl<const N: usize, const LANES: usize, const BYTES: usize> Shuffle<N, LANES, B
     };
 }
 
+/// From threes of bytes to fours, the fourth none of the bytes there are.
+const fn spread<const BYTES: usize>() -> [u8; BYTES] {
+    let mut picks = [u8::MAX; BYTES];
+    let mut byte = 0;
+    while byte < BYTES {
+        if byte % 4 < 3 {
+            picks[byte] = (byte / 4 * 3 + byte % 4) as u8;
+        }
+        byte += 1;
+    }
+    picks
+}
+
+/// From fours of bytes to threes, and then anything.
+const fn dense<const BYTES: usize>() -> [u8; BYTES] {
+    let mut picks = [0; BYTES];
+    let mut byte = 0;
+    while byte < BYTES / 4 * 3 {
+        picks[byte] = (byte / 3 * 4 + byte % 3) as u8;
+        byte += 1;
+    }
+    picks
+}
+
 /// Picks lane `from` for lane `to`.
 const fn put(picks: &mut [u8], to: usize, from: usize) {
     let mut byte = 0;
@@ -289,5 +337,5 @@ const fn put(picks: &mut [u8], to: usize, from: usize) {
     }
 }
 
-lanes!(8, F8: f32x8, I8: i32x8 | u32x8, M8: mask32x8);
-lanes!(16, F16: f32x16, I16: i32x16 | u32x16, M16: mask32x16);
+lanes!(8, F8: f32x8, I8: i32x8 | u32x8 | u8x32, M8: mask32x8);
+lanes!(16, F16: f32x16, I16: i32x16 | u32x16 | u8x64, M16: mask32x16);
