@@ -7,7 +7,7 @@ use bytemuck::Pod;
 use crate::dispatch::{Job, dispatch, finish};
 use crate::error::LengthMismatch;
 use crate::formula::{Formula, Packed, Stored};
-use crate::lane::Lane;
+use crate::lane::{Lane, MOST_COMPONENTS};
 use crate::streaming::{self, Fence};
 use crate::{Codec, Visitor};
 
@@ -196,7 +196,7 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
         #[inline(always)]
         fn run<L: Lane>(self) -> Self {
             let DecodeAll { decoder, codes, v: SoaMut { x, y, z } } = self;
-            let fence = Fence::new(3 * size_of_val(x));
+            let fence = Fence::new(L::STREAMS && streaming::is_large(3 * size_of_val(x)));
             let ((xs, x), (ys, y), (zs, z)) = (L::split_mut(x), L::split_mut(y), L::split_mut(z));
             let (blocks, codes) = L::split(codes);
             for (((codes, x), y), z) in blocks.iter().zip(xs).zip(ys).zip(zs) {
@@ -216,7 +216,7 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
     }
     LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
     let mut job = DecodeAll { decoder, codes, v };
-    if Fence::new(3 * size_of_val(job.v.x)).streams() {
+    if streaming::is_large(3 * size_of_val(job.v.x)) {
         job = job.align();
     }
     dispatch(job);
@@ -286,13 +286,19 @@ impl Stage {
 
     #[inline(always)]
     fn gather<const N: usize>(&mut self, vectors: &[[f32; N]]) {
-        dispatch(Gather { vectors, v: self.write(vectors.len()) });
+        rearrange::<N, _>(Gather { vectors, v: self.write(vectors.len()) });
     }
 
     #[inline(always)]
     fn scatter<const N: usize>(&self, vectors: &mut [[f32; N]]) {
-        dispatch(Scatter { v: self.read(vectors.len()), vectors });
+        rearrange::<N, _>(Scatter { v: self.read(vectors.len()), vectors });
     }
+}
+
+/// Does a job for vectors of `N` components, in lanes if there are few.
+#[inline(always)]
+fn rearrange<const N: usize, J: Job>(job: J) {
+    if N <= MOST_COMPONENTS { dispatch(job) } else { finish(job) }
 }
 
 /// From an array of structures to a structure of arrays.

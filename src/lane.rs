@@ -12,6 +12,9 @@ use crate::streaming::Fence;
 /// 1.5 * 2^23: adding it rounds to an integer, ties to even, which then stands in the low mantissa bits.
 const ROUNDER: f32 = 12_582_912.0;
 
+/// Of vectors that lanes rearrange.
+pub(crate) const MOST_COMPONENTS: usize = 8;
+
 /// A vector of `f32`, of as many lanes as the implementation has.
 pub(crate) trait Lane:
     Copy
@@ -27,6 +30,8 @@ pub(crate) trait Lane:
     type Mask: LaneMask;
     /// As many elements of a slice as there are lanes.
     type Block<T: Copy + 'static>: Copy + 'static;
+    /// Whether [`stream`](Lane::stream) does more than [`store`](Lane::store).
+    const STREAMS: bool = false;
 
     /// The whole blocks of a slice, and the rest.
     fn split<T: Copy + 'static>(slice: &[T]) -> (&[Self::Block<T>], &[T]);
@@ -66,7 +71,7 @@ pub(crate) trait Lane:
     fn store_bytes(int: Self::Int, block: &mut Self::Block<[u8; 3]>) {
         Self::store_int(int, block, |[a, b, c], i| [*a, *b, *c, _] = i.to_le_bytes());
     }
-    /// The first three components of a block of vectors.
+    /// The first three components of a block of vectors of at most [`MOST_COMPONENTS`].
     #[inline(always)]
     fn load_vectors<const N: usize>(block: &Self::Block<[f32; N]>) -> [Self; 3] {
         [0, 1, 2].each(
@@ -74,7 +79,7 @@ pub(crate) trait Lane:
             |i: usize| Self::from_bits(Self::load_int(block, |v| v[i].to_bits())),
         )
     }
-    /// Writes the first three components of a block of vectors.
+    /// Writes the first three components of a block of vectors of at most [`MOST_COMPONENTS`].
     #[inline(always)]
     fn store_vectors<const N: usize>(v: [Self; 3], block: &mut Self::Block<[f32; N]>) {
         for (i, c) in v.into_iter().enumerate() {

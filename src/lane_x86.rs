@@ -8,7 +8,7 @@ use fearless_simd::{
     f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u8x32, u8x64, u32x8, u32x16,
 };
 
-use crate::lane::{Lane, LaneInt, LaneMask, look_up, look_up3, look_up4};
+use crate::lane::{Lane, LaneInt, LaneMask, MOST_COMPONENTS, look_up, look_up3, look_up4};
 use crate::stores_x86::Streaming;
 use crate::streaming::Fence;
 use crate::x86::Tier;
@@ -73,6 +73,7 @@ macro_rules! lanes {
             type Int = $int<T>;
             type Mask = $mask<T>;
             type Block<B: Copy + 'static> = [B; $n];
+            const STREAMS: bool = true;
 
             #[inline(always)]
             fn split<B: Copy + 'static>(slice: &[B]) -> (&[[B; $n]], &[B]) {
@@ -132,7 +133,7 @@ macro_rules! lanes {
             fn store_vectors<const N: usize>([x, y, z]: [Self; 3], block: &mut [[f32; N]; $n]) {
                 let (rows, _) = block.as_flattened_mut().as_chunks_mut();
                 for (row, [pick_y, pick_z, keep]) in
-                    rows.iter_mut().zip(&Shuffle::<N, $n, { 4 * $n }>::STORE)
+                    rows.iter_mut().zip(&Shuffle::<N, 3, $n, { 4 * $n }>::STORE)
                 {
                     let xyz = x.0.concat_swizzle_dyn(y.0, *pick_y).concat_swizzle_dyn(z.0, *pick_z);
                     let old = $f32s::simd_from(T::token(), *row);
@@ -213,7 +214,7 @@ macro_rules! lanes {
             fn columns<const N: usize, const C: usize>(rows: &[i32]) -> [Self; C] {
                 let mut columns = [$i32s::splat(T::token(), 0); C];
                 let (parts, _) = rows.as_chunks();
-                for (part, picks) in parts.iter().zip(&Shuffle::<N, $n, { 4 * $n }>::LOAD) {
+                for (part, picks) in parts.iter().zip(&Shuffle::<N, C, $n, { 4 * $n }>::LOAD) {
                     let part = $i32s::simd_from(T::token(), *part);
                     for (column, pick) in columns.iter_mut().zip(picks) {
                         *column = column.concat_swizzle_dyn(part, *pick);
@@ -267,19 +268,21 @@ macro_rules! lanes {
 }
 
 /// Which bytes of two vectors of `LANES` lanes make one, on the way from or to `LANES` vectors of `N`
-/// components, which stand in `N` rows.
-struct Shuffle<const N: usize, const LANES: usize, const BYTES: usize>;
+/// components, of which `C` count, and which stand in `N` rows. Not filled in beyond [`MOST_COMPONENTS`].
+struct Shuffle<const N: usize, const C: usize, const LANES: usize, const BYTES: usize>;
 
-impl<const N: usize, const LANES: usize, const BYTES: usize> Shuffle<N, LANES, BYTES> {
+impl<const N: usize, const C: usize, const LANES: usize, const BYTES: usize>
+    Shuffle<N, C, LANES, BYTES>
+{
     /// For each row: of a component what is collected already, and from the row what it has of it.
-    const LOAD: [[[u8; BYTES]; N]; N] = {
-        let mut picks = [[[0; BYTES]; N]; N];
+    const LOAD: [[[u8; BYTES]; C]; N] = {
+        let mut picks = [[[0; BYTES]; C]; N];
         let mut i = 0;
-        while i < N * LANES {
+        while N <= MOST_COMPONENTS && i < N * LANES {
             let (row, component, lane) = (i / LANES, i % N, i / N);
             // In this row it is found, in those after it kept.
             let mut later = row;
-            while later < N {
+            while component < C && later < N {
                 let from = if later == row { LANES + i % LANES } else { lane };
                 put(&mut picks[later][component], lane, from);
                 later += 1;
@@ -292,7 +295,7 @@ impl<const N: usize, const LANES: usize, const BYTES: usize> Shuffle<N, LANES, B
     const STORE: [[[u8; BYTES]; 3]; N] = {
         let mut picks = [[[0; BYTES]; 3]; N];
         let mut i = 0;
-        while i < N * LANES {
+        while N <= MOST_COMPONENTS && i < N * LANES {
             let (row, place, component, lane) = (i / LANES, i % LANES, i % N, i / N);
             let [y, z, old] = &mut picks[row];
             put(y, place, if component == 1 { LANES + lane } else { lane });

@@ -16,7 +16,7 @@ use crate::streaming::Fence;
 
 /// A processor, by its token, that streams blocks of `N`.
 pub(crate) trait Streaming<const N: usize> {
-    /// Streams to an aligned block, and stores to any other.
+    /// Streams to an aligned block if the fence is for that, and stores to any other.
     fn stream<'a>(self, from: [f32; N], to: &'a mut [f32; N], fence: &Fence<'a>);
 }
 
@@ -24,14 +24,15 @@ macro_rules! streaming {
     ($token:ty, $n:literal: $load:ident, $stream:ident) => {
         impl Streaming<$n> for $token {
             #[inline(always)]
-            fn stream<'a>(self, from: [f32; $n], to: &'a mut [f32; $n], _: &Fence<'a>) {
+            fn stream<'a>(self, from: [f32; $n], to: &'a mut [f32; $n], fence: &Fence<'a>) {
                 let address = to.as_mut_ptr();
-                if address.addr() % size_of_val(to) != 0 {
+                if !fence.streams() || address.addr() % size_of_val(to) != 0 {
                     *to = from;
                     return;
                 }
                 // SAFETY: the token stands for these instructions. Both arrays are as long as the
-                // vector; the one written to is aligned, borrowed alone, and stays so until the fence.
+                // vector; the one written to is aligned, borrowed alone, and stays so until the fence,
+                // which `batch::decode_all`, the one place that makes any, drops.
                 unsafe { arch::$stream(address, arch::$load(from.as_ptr())) }
             }
         }
@@ -44,6 +45,6 @@ streaming!(Avx512, 16: _mm512_loadu_ps, _mm512_stream_ps);
 /// Ends a time of streaming.
 #[inline(always)]
 pub(crate) fn fence() {
-    // SAFETY: it takes nothing, and every processor that has streamed has it.
+    // SAFETY: it takes nothing, and only lanes of AVX2 and AVX-512 stream; those processors have it.
     unsafe { arch::_mm_sfence() }
 }

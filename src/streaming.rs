@@ -9,22 +9,26 @@ use core::marker::PhantomData;
 /// Bytes from which on an output counts as larger than the caches.
 const LARGE: usize = 32 << 20;
 
+/// Whether an output of so many bytes is larger than the caches.
+#[inline(always)]
+pub(crate) fn is_large(bytes: usize) -> bool {
+    bytes >= LARGE
+}
+
 /// What streaming stores need to be aligned to.
 pub(crate) const ALIGNMENT: usize = 64;
 
-/// Whether stores should stream. Those that do are seen late and in any order, also by the thread itself,
-/// until this is dropped; it keeps what they go to borrowed so long.
+/// Whether stores should stream. Those that do may be seen late and in any order until this is
+/// dropped, which whoever makes one has to do; so long it keeps what they go to borrowed.
 pub(crate) struct Fence<'a> {
     streams: bool,
     blocks: PhantomData<Cell<&'a mut ()>>,
 }
 
 impl Fence<'_> {
-    /// For an output of so many bytes.
     #[inline(always)]
-    pub(crate) fn new(bytes: usize) -> Self {
-        let streams = cfg!(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")));
-        Fence { streams: streams && bytes >= LARGE, blocks: PhantomData }
+    pub(crate) fn new(streams: bool) -> Self {
+        Fence { streams, blocks: PhantomData }
     }
 
     #[inline(always)]

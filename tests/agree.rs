@@ -19,6 +19,8 @@ use unitpack::{
     Codec, Float32x3, Format, LengthMismatch, Oct16, Oct24, Oct32, Soa, SoaMut, Visitor, transcode,
 };
 
+use crate::common::Rng;
+
 type Vector = [f32; 3];
 
 /// What surrounds the results. As an `f32` it is a number that no decoder gives.
@@ -612,6 +614,35 @@ fn decoders_agree_at_every_length_and_offset() -> TestCaseResult {
         }
     }
     Ok(())
+}
+
+/// Up to eight components are rearranged in vectors, more are not. What is beyond three stays as it is.
+fn of_components<const N: usize>() {
+    for len in [1, 15, 16, 255, 257, 530] {
+        let mut rng = Rng::new(len as u64);
+        let vectors: Vec<[f32; N]> = (0..len).map(|_| [0; N].map(|_| rng.unit() as f32)).collect();
+        let mut codes = vec![0; len];
+        Oct16::encode_aos(&vectors, &mut codes).unwrap();
+        let mut decoded = vectors.clone();
+        Oct16::decode_aos(&codes, &mut decoded).unwrap();
+        for ((v, &code), decoded) in vectors.iter().zip(&codes).zip(&decoded) {
+            let mut expected = *v;
+            assert_eq!(code, Oct16::encode([v[0], v[1], v[2]]));
+            expected[..3].copy_from_slice(&Oct16::decode(code));
+            assert_eq!(decoded.map(f32::to_bits), expected.map(f32::to_bits));
+        }
+    }
+}
+
+#[test]
+fn vectors_may_have_any_number_of_components() {
+    of_components::<3>();
+    of_components::<4>();
+    of_components::<5>();
+    of_components::<7>();
+    of_components::<8>();
+    of_components::<9>();
+    of_components::<256>();
 }
 
 // ---- Only the direction matters ----

@@ -22,7 +22,7 @@ impl Visitor for Direct<'_> {
 #[test]
 fn bytes_are_the_codes() {
     // More than one detour over the stack.
-    let vectors: Vec<[f32; 3]> = vectors().into_iter().take(67).collect();
+    let vectors: Vec<[f32; 3]> = vectors().into_iter().take(261).collect();
     let [x, y, z] = [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect::<Vec<f32>>());
     let v = Soa { x: &x, y: &y, z: &z };
     // One for each type of code.
