@@ -9,10 +9,11 @@ use core::marker::PhantomData;
 /// Bytes from which on an output counts as larger than the caches.
 const LARGE: usize = 32 << 20;
 
-/// Whether an output of so many bytes is larger than the caches.
+/// Whether an output of so many bytes is larger than the caches, where any lanes stream.
 #[inline(always)]
 pub(crate) fn is_large(bytes: usize) -> bool {
-    bytes >= LARGE
+    let any = cfg!(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")));
+    any && bytes >= LARGE
 }
 
 /// What streaming stores need to be aligned to.
