@@ -273,6 +273,15 @@ impl<T> Each<T> for [T; 3] {
     }
 }
 
+impl<T> Each<T> for [T; 4] {
+    type Of<U> = [U; 4];
+    #[inline(always)]
+    fn each<U>(self, f: impl Fn(T) -> U) -> [U; 4] {
+        let [a, b, c, d] = self;
+        [f(a), f(b), f(c), f(d)]
+    }
+}
+
 impl Lane for f32 {
     type Int = Wrapping<i32>;
     type Mask = bool;

@@ -132,7 +132,7 @@ impl Lane for F8 {
     #[inline(always)]
     fn gather4(table: &[u32], index: I8) -> [I8; 4] {
         let fours = index.0.to_array().map(|i| look_up4(table, i));
-        [0, 1, 2, 3].map(|i: usize| I8(i32x8::new(fours.map(|four| four[i]))))
+        [0, 1, 2, 3].each(|i: usize| I8(i32x8::new(fours.map(|four| four[i]))))
     }
     #[inline(always)]
     fn gather3(table: &[[f32; 3]], index: I8) -> [Self; 3] {
