@@ -49,31 +49,6 @@ fn blocks_of_codes_of_up_to_32_bits() {
     check_all(&tasks, |&(format, first)| check_codes(format, first, BLOCK));
 }
 
-/// Points half way between whose multiples the length is 1 but for one part in a million. In no grid of
-/// equal steps is there one, as there the squares of lengths are integers.
-#[test]
-fn multiples_of_snorm11_11_10_that_are_almost_as_near_to_length_1() {
-    let (most, least) = (1023i64, 511i64);
-    let mut codes = Vec::new();
-    for halves in [3, 5, 7, 9, 11] {
-        let square = 4.0 / (halves * halves) as f64;
-        for (x, z) in (0..=most).flat_map(|x| (0..=least).map(move |z| (x, z))) {
-            let [u, w] = [x as f64 / most as f64, z as f64 / least as f64];
-            let y = ((square - u * u - w * w).max(0.0).sqrt() * most as f64).round() as i64;
-            let v = y as f64 / most as f64;
-            if (u * u + v * v + w * w - square).abs() < 1e-6 * square && y <= most {
-                codes.push((x | y << 11 | z << 22) as u128);
-            }
-        }
-    }
-    assert!(codes.len() > 100, "{}", codes.len());
-    let oracle = oracle("snorm11-11-10").unwrap();
-    let canonical = Format::Snorm11_11_10.visit(Canonical(&codes));
-    for (&code, canonical) in codes.iter().zip(canonical) {
-        assert_eq!(canonical, oracle.canonical(code), "{code:x}");
-    }
-}
-
 /// [`Codec::canonical`].
 struct Canonical<'a>(&'a [u128]);
 

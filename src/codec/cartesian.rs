@@ -487,7 +487,7 @@ impl<L: Lane> Search<L> {
     #[inline(always)]
     fn nearest_corner<G: Grid, const ALL: bool>(&self) -> ([L::Int; 3], L::Mask) {
         let most = G::STEPS[0];
-        let equal = G::STEPS[1] == most && G::STEPS[2] == most;
+        let equal = G::STEPS[2] == most;
         let [[p, p_steps, _], [q, q_steps, _]] = self.others;
         let one = L::splat(1.0);
         let lengths = G::LENGTHS + 1 - most as i32 / G::SHORTER;
@@ -570,12 +570,22 @@ impl<L: Lane> Search<L> {
             |i: usize| ideal[i] - off[i],
         );
         let point = Cartesian::<G>::nearest(point);
-        // What is no rounded corner is at least half a pitch off on one axis.
+        (point, self.surely_rounded::<G>(square / along))
+    }
+
+    /// Whether the nearest corner is a rounded one, if the tangent of the nearest of those is, squared and
+    /// in the units of [`nearest_corner`](Self::nearest_corner), `square`.
+    #[inline(always)]
+    fn surely_rounded<G: Grid>(&self, square: L) -> L::Mask {
+        let [[p, p_steps, _], [q, ..]] = self.others;
+        let [pp, qq] = [p * p, q * q];
+        let one = L::splat(1.0);
+        let unit = L::splat(G::PITCH as f32 / WRAP);
         let tangent = unit * self.steps / (p_steps * self.stretch);
-        let tangent_squared = tangent * tangent * scale * square / along;
-        let steepest = one + (p * p).greater(q * q);
-        let half = L::splat(0.23 * (G::PITCH * G::PITCH) as f32 / (most * most));
-        (point, (tangent_squared * self.stretch * steepest).lt(half))
+        let tangent_squared = tangent * tangent * (one + qq) * square;
+        // What is no rounded corner is at least half a pitch off on one axis.
+        let half = 0.23 * (G::PITCH * G::PITCH) as f32 / (G::STEPS[0] * G::STEPS[0]);
+        (tangent_squared * self.stretch * (one + pp.greater(qq))).lt(L::splat(half))
     }
 
     /// The nearest point of a grid finer than f32; of those that decode alike, the one whose length is

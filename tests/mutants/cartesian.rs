@@ -42,6 +42,14 @@ fn nearest_of_hard_vectors() {
     precise::<Snorm8x3>([-1.9914265, 0.99286306, 1.9990106], &[0x82, 0x3F, 0x7F]);
     precise::<Snorm11_11_10>([1.0000129, 2.0000827, -1.999952], &[0x00, 0xFA, 0x5F, 0x80]);
     precise::<Snorm11_11_10>([244.0, -328.0, 9.0 * 1023.0 / 511.0], &[0xDC, 0x42, 0xE1, 0x06]);
+    precise::<Snorm16x3>(
+        [0.5048139, 0.50482273, 0.50478584],
+        &[0xB9, 0x3C, 0xB9, 0x3C, 0xB8, 0x3C],
+    );
+    precise::<XyzUnorm16x3>(
+        [0.6069422, 0.6069523, 0.60694355],
+        &[0xD7, 0xFF, 0xD8, 0xFF, 0xD7, 0xFF],
+    );
     precise::<Float16x3>(
         [0.2868867, -0.3754654, -0.38416338],
         &[0xAB, 0x35, 0x6B, 0xB7, 0x97, 0xB7],
@@ -66,4 +74,36 @@ fn nearest_of_hard_vectors() {
     precise::<XyzUnorm8x3>([-0.99837416, 1.0048618, -0.9931956], &[0x01, 0xFF, 0x02]);
     precise::<XyOnly32>([0.50143874, -0.35518062, -0.4948815], &[0x74, 0xE8, 0x04, 0x36]);
     precise::<XyOnly32F>([-0.0055607366, 0.99602944, 0.007958152], &[0xB8, 0x9D, 0x00, 0x3C]);
+}
+
+/// Points half way between whose multiples the length is 1 but for one part in a million. In no grid of
+/// equal steps is there one, as there the squares of lengths are integers.
+#[test]
+fn multiples_that_are_almost_as_near_to_length_1() {
+    let (most, least) = (1023i64, 511i64);
+    let length = |[x, y, z]: [i64; 3]| {
+        let [u, v, w] = [x as f64 / most as f64, y as f64 / most as f64, z as f64 / least as f64];
+        (u * u + v * v + w * w).sqrt()
+    };
+    let mut count = 0;
+    for halves in [3, 5, 7, 9, 11] {
+        let wanted = 2.0 / halves as f64;
+        for (x, z) in (0..=most).flat_map(|x| (0..=least).map(move |z| (x, z))) {
+            let rest = wanted * wanted - length([x, 0, z]).powi(2);
+            let point = [x, (rest.max(0.0).sqrt() * most as f64).round() as i64, z];
+            if (length(point) / wanted - 1.0).abs() > 5e-7 {
+                continue;
+            }
+            let divides = |by: &i64| point.iter().all(|c| c % by == 0);
+            let primitive = point.map(|c| c / (1..=most).rev().find(divides).unwrap());
+            let nearest = (1..=most)
+                .map(|times| primitive.map(|c| c * times))
+                .take_while(|&[x, y, z]| x.max(y) <= most && z <= least)
+                .min_by(|&a, &b| (length(a) - 1.0).abs().total_cmp(&(length(b) - 1.0).abs()));
+            let code = |[x, y, z]: [i64; 3]| (x | y << 11 | z << 22) as u32;
+            assert_eq!(Snorm11_11_10::canonical(code(point)), code(nearest.unwrap()), "{point:?}");
+            count += 1;
+        }
+    }
+    assert!(count > 100, "{count}");
 }
