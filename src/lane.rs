@@ -102,12 +102,6 @@ pub(crate) trait Lane:
     /// Of each index the element and the three after it, or zeros where there are none.
     fn gather4(table: &[u32], index: Self::Int) -> [Self::Int; 4];
 
-    /// An integer read as unsigned.
-    #[inline(always)]
-    fn from_unsigned(i: Self::Int) -> Self {
-        Self::from_int(i.shr(16)) * Self::splat(65_536.0) + Self::from_int(i.low(16))
-    }
-
     #[inline(always)]
     fn zero() -> Self {
         Self::splat(0.0)
@@ -402,8 +396,11 @@ pub(crate) fn look_up<T: Copy + Into<u32>>(table: &[T], index: i32) -> i32 {
 /// One lane of a gather of four in a row.
 #[inline(always)]
 pub(crate) fn look_up4(table: &[u32], index: i32) -> [i32; 4] {
-    let from = table.get(index as u32 as usize..).and_then(|rest| rest.first_chunk());
-    from.map_or([0; 4], |four: &[u32; 4]| bytemuck::cast(*four))
+    let index = index as u32 as usize;
+    match table.get(index..index.wrapping_add(4)) {
+        Some(&[a, b, c, d]) => [a as i32, b as i32, c as i32, d as i32],
+        _ => [0; 4],
+    }
 }
 
 /// One lane of a gather of vectors.

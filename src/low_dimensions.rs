@@ -9,7 +9,7 @@ use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
 use crate::formula::direction;
 use crate::lane::{Each, Lane, LaneInt};
-use crate::math::{angle_in_octant, sin_cos_half_turns};
+use crate::math::{angle_in_octant, sin_cos_quarter_turns};
 
 /// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
 ///
@@ -159,8 +159,8 @@ impl<const BITS: u32> Angle<BITS> {
         const { assert!(holds::<T>(Self::BITS), "the integer has too few bits for the angle") };
         let k = L::load_int(codes, T::into).sign_extend(BITS);
         // Exact, as is its distance from the nearest quarter turn.
-        let half_turns = L::from_int(k) * L::splat(1.0 / (1u32 << (BITS - 1)) as f32);
-        let (sin, cos) = sin_cos_half_turns(half_turns);
+        let quarter_turns = L::from_int(k) * L::splat(2.0 / (1u32 << (BITS - 1)) as f32);
+        let (sin, cos) = sin_cos_quarter_turns(quarter_turns);
         // No negative zeros.
         let [cos, sin] = [cos, sin].each(|c| c + L::zero());
         cos.store(x);

@@ -1,6 +1,6 @@
 //! Roots and trigonometry, written once for any number of lanes, from exact operations only.
 //!
-//! Angles are in half turns: 1 is 180 degrees. The polynomials interpolate at Chebyshev nodes.
+//! Arc tangents are in half turns: 1 is 180 degrees; sine and cosine take quarter turns. The polynomials interpolate at Chebyshev nodes.
 
 use crate::lane::{Each, Lane, LaneInt};
 
@@ -50,29 +50,47 @@ pub(crate) fn normalize<L: Lane>(v: [L; 3]) -> [L; 3] {
     v.each(|c| c * r)
 }
 
-/// (sin, cos) of |x| <= 2 half turns, with error below 1.2e-7; exact at multiples of a quarter
-/// turn.
+/// (sin, cos) of |x| <= 4 quarter turns, with error below 1.2e-7; exact at whole ones.
 #[inline(always)]
-pub(crate) fn sin_cos_half_turns<L: Lane>(x: L) -> (L, L) {
-    // Nearest quarter turn, and what is left of it: |r| <= 1/4.
-    let quarter = (x * L::splat(2.0)).round_int();
-    let r = x - L::from_int(quarter) * L::splat(0.5);
-    let s = r * r;
-    let sin = r
-        * (L::splat(core::f32::consts::PI)
-            + s * (L::splat(-5.167_713)
-                + s * (L::splat(2.550_162_6)
-                    + s * (L::splat(-0.599_202_1) + s * L::splat(0.081_001_63)))));
-    let cos = L::splat(1.0)
-        + s * (L::splat(-4.934_802)
-            + s * (L::splat(4.058_710_6)
-                + s * (L::splat(-1.335_137_8) + s * L::splat(0.232_125_41))));
+pub(crate) fn sin_cos_quarter_turns<L: Lane>(x: L) -> (L, L) {
+    // Nearest quarter turn, and what is left of it.
+    let quarter = x.round_int();
+    let (sin, cos) = sin_cos_of_half(x - L::from_int(quarter));
     // Turn by the quarters.
     let odd = quarter.low(1).eq(L::Int::splat(1));
     let (sin, cos) = (L::select(odd, cos, sin), L::select(odd, sin, cos));
     let sign =
         |quarter: L::Int, v: L| L::from_bits(v.to_bits() ^ (quarter & L::Int::splat(2)).shl(30));
     (sign(quarter, sin), sign(quarter + L::Int::splat(1), cos))
+}
+
+/// [`sin_cos_quarter_turns`] for |x| <= 1, where a cosine of 0 is positive.
+#[inline(always)]
+pub(crate) fn sin_cos_of_one<L: Lane>(x: L) -> (L, L) {
+    let magnitude = x.abs();
+    // Mirror into the nearer half, and back.
+    let complement = L::splat(1.0) - magnitude;
+    let (sin, cos) = sin_cos_of_half(magnitude.lesser(complement));
+    let mirrored = complement.lt(magnitude);
+    let (sin, cos) = (L::select(mirrored, cos, sin), L::select(mirrored, sin, cos));
+    let sign = x.to_bits() & L::Int::splat(i32::MIN);
+    (L::from_bits(sin.to_bits() | sign), cos)
+}
+
+/// [`sin_cos_quarter_turns`] for |x| <= 1/2.
+#[inline(always)]
+pub(crate) fn sin_cos_of_half<L: Lane>(x: L) -> (L, L) {
+    let s = x * x;
+    let sin = x
+        * (L::splat(core::f32::consts::FRAC_PI_2)
+            + s * (L::splat(-5.167_713 / 8.0)
+                + s * (L::splat(2.550_162_6 / 32.0)
+                    + s * (L::splat(-0.599_202_1 / 128.0) + s * L::splat(0.081_001_63 / 512.0)))));
+    let cos = L::splat(1.0)
+        + s * (L::splat(-4.934_802 / 4.0)
+            + s * (L::splat(4.058_710_6 / 16.0)
+                + s * (L::splat(-1.335_137_8 / 64.0) + s * L::splat(0.232_125_41 / 256.0))));
+    (sin, cos)
 }
 
 /// The angle of (x, y) in half turns, in (-1, 1], with error below 1.5e-7; 0 at (0, 0). Zeros have
@@ -153,19 +171,22 @@ mod tests {
     #[test]
     fn sine_and_cosine_meet_their_bound() {
         let error = |x: f32| {
-            let (s, c) = sin_cos_half_turns(x);
-            let (es, ec) = (PI * f64::from(x)).sin_cos();
-            (f64::from(s) - es).abs().max((f64::from(c) - ec).abs())
+            let (es, ec) = (PI / 2.0 * f64::from(x)).sin_cos();
+            let off = |(s, c)| (f64::from(s) - es).abs().max((f64::from(c) - ec).abs());
+            let of_one = if x.abs() <= 1.0 { off(sin_cos_of_one(x)) } else { 0.0 };
+            off(sin_cos_quarter_turns(x)).max(of_one)
         };
-        let worst = greatest(-2.0, 2.0, 4_000_000, error);
+        let worst = greatest(-4.0, 4.0, 4_000_000, error);
         assert!(worst < 1.2e-7, "{worst:e}");
     }
 
     #[test]
     fn sine_and_cosine_are_exact_at_quarter_turns() {
-        let quarters = [-1.0f32, -0.5, 0.0, 0.5, 1.0];
-        let got = quarters.map(sin_cos_half_turns);
+        let got = [-2.0f32, -1.0, 0.0, 1.0, 2.0].map(sin_cos_quarter_turns);
         assert_eq!(got, [(0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0), (0.0, -1.0)]);
+        let got = [-1.0f32, 0.0, 1.0].map(sin_cos_of_one);
+        assert_eq!(got, [(-1.0, 0.0), (0.0, 1.0), (1.0, 0.0)]);
+        assert!(got.iter().all(|(_, cos)| cos.is_sign_positive()));
     }
 
     #[test]

@@ -21,7 +21,7 @@ use core::marker::PhantomData;
 use crate::formula::{Formula, One, Symmetric, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::layout::snorm_max;
-use crate::math::{atan2_half_turns, normalize, sin_cos_half_turns};
+use crate::math::{atan2_half_turns, normalize, sin_cos_of_half};
 
 /// A cube map with spacing `W` in `BITS` bits.
 pub(crate) struct Cube<W, const BITS: u32>(PhantomData<W>);
@@ -63,7 +63,7 @@ impl Spacing for Warped {
         params.each(
             #[inline(always)]
             |p| {
-                let (sin, cos) = sin_cos_half_turns(p * L::splat(0.25));
+                let (sin, cos) = sin_cos_of_half(p * L::splat(0.5));
                 let end = L::splat(1.0).le(p.abs());
                 L::select(end, p, sin / cos)
             },
@@ -257,13 +257,13 @@ impl Cells {
     #[inline(always)]
     fn vector<L: Lane>(self, cell: [L::Int; 2], face: L::Int) -> [L; 3] {
         let s = L::Int::splat(self.side);
-        let scale = L::splat(0.25 / self.side as f32);
+        let scale = L::splat(0.5 / self.side as f32);
         let [a, b] = cell.each(
             #[inline(always)]
             |i| {
-                // A quarter of (2 i + 1) / s - 1, in half turns.
+                // Half of (2 i + 1) / s - 1, in quarter turns.
                 let odd = i + i + L::Int::splat(1) - s;
-                let (sin, cos) = sin_cos_half_turns(L::from_int(odd) * scale);
+                let (sin, cos) = sin_cos_of_half(L::from_int(odd) * scale);
                 sin / cos
             },
         );

@@ -38,7 +38,8 @@ use crate::formula::{Closest, Formula, One, Symmetric};
 use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math::{
-    atan2_half_turns, chord_squared, inv_sqrt, length_squared, normalize, sin_cos_half_turns, sqrt,
+    atan2_half_turns, chord_squared, inv_sqrt, length_squared, normalize, sin_cos_of_half,
+    sin_cos_of_one, sqrt,
 };
 
 /// A disk projection `P`, stretched by `S`, in `BITS` bits.
@@ -171,7 +172,7 @@ impl Projection for EqDist {
         let per_r = inv_sqrt(rr);
         // The angle above the equator is 1 - r quarter turns, and 1 - r = d / (1 + r).
         let short = d / (L::splat(1.0) + rr * per_r);
-        let (sin, cos) = sin_cos_half_turns(short * L::splat(0.5));
+        let (sin, cos) = sin_cos_of_one(short);
         let k = cos * per_r;
         [x * k, y * k, sin]
     }
@@ -235,7 +236,7 @@ impl Stretch for Concentric {
         let [u, v] = scaled::<L>(square, m);
         let steep = u.abs().lt(v.abs());
         let (out, along) = (L::select(steep, v, u), L::select(steep, u, v));
-        let (sin, cos) = sin_cos_half_turns(L::splat(0.25) * along / out);
+        let (sin, cos) = sin_cos_of_half(L::splat(0.5) * along / out);
         let (long, short) = (out * cos, out * sin);
         let d = one_minus_square::<L>(square[0].abs().max(square[1].abs()), m);
         OnDisk {

@@ -24,7 +24,7 @@ use core::marker::PhantomData;
 use crate::formula::{Closest, Formula, One, around};
 use crate::lane::{Lane, LaneInt, inlined};
 use crate::layout::unorm_max;
-use crate::math::{atan2_half_turns, sin_cos_half_turns, sqrt};
+use crate::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
 
 /// Lat-long on the parallels `P`.
 pub(crate) struct LatLong<P>(PhantomData<P>);
@@ -65,12 +65,13 @@ impl<P: Parallels> LatLong<P> {
     /// Point `k` of `count` on a parallel.
     #[inline(always)]
     fn point<L: Lane>(parallel: L::Int, k: L::Int, count: L::Int) -> [L; 3] {
-        let theta = L::from_int(parallel) / L::splat(P::LAST as f32);
-        // From -1 to 1: beyond half a turn a bit would be lost.
+        // In quarter turns.
+        let theta = L::from_int(parallel) / L::splat(0.5 * P::LAST as f32);
+        // From -2 to 2: beyond half a turn a bit would be lost.
         let k = L::Int::select(count.lt(k + k), k - count, k);
-        let phi = L::from_int(k + k) / L::from_int(count);
-        let (sin_theta, cos_theta) = sin_cos_half_turns(theta);
-        let (sin_phi, cos_phi) = sin_cos_half_turns(phi);
+        let phi = L::from_int(k.shl(2)) / L::from_int(count);
+        let (sin_theta, cos_theta) = sin_cos_quarter_turns(theta);
+        let (sin_phi, cos_phi) = sin_cos_quarter_turns(phi);
         [sin_theta * cos_phi, sin_theta * sin_phi, cos_theta]
     }
 }
@@ -170,12 +171,23 @@ where
     #[inline(always)]
     fn find<L: Lane>(index: L::Int) -> [L::Int; 3] {
         let index = index.low(BITS);
-        // The cap above the point has the area share (1 - cos theta) / 2 = sin^2(theta / 2).
-        let total = L::Int::splat(const { Self::BEGINS[Self::BEGINS.len() - 1] as i32 });
-        let above = L::from_unsigned(index) + L::splat(0.5);
-        let below = (L::from_unsigned(total - index) - L::splat(0.5)).greater(L::splat(0.5));
-        let theta = atan2_half_turns(sqrt(above), sqrt(below));
-        let guess = (theta * L::splat(2.0 * Self::LAST as f32)).round_int();
+        // The cap above the point, or below if that is smaller, has the area share (1 - cos theta) / 2 =
+        // sin^2(theta / 2) = t; theta = 2 asin sqrt t.
+        let total = const { Self::BEGINS[Self::BEGINS.len() - 1] };
+        let (middle, last) = (L::Int::splat((total / 2) as i32), L::Int::splat((total - 1) as i32));
+        let south = middle.below(index);
+        let beyond = last.below(index);
+        let points = L::Int::select(south, last - index, index);
+        let points = L::from_int(L::Int::select(beyond, L::Int::splat(0), points));
+        let t = (points + L::splat(0.5)) * L::splat((1.0 / total as f64) as f32);
+        let asin = sqrt(t)
+            * (L::splat(1.000_004_5)
+                + t * (L::splat(0.166_218_98)
+                    + t * (L::splat(0.081_858_44)
+                        + t * (L::splat(0.009_758_449) + t * L::splat(0.094_634_07)))));
+        let pole = L::splat(Self::LAST as f32);
+        let from_pole = asin * L::splat(Self::LAST as f32 * core::f32::consts::FRAC_2_PI);
+        let guess = L::select(south, pole - from_pole, from_pole).round_int();
         // One off at most.
         let [before, begin, end, after] = L::gather4(Self::BEGINS, guess);
         let early = index.below(begin);

@@ -13,7 +13,7 @@
 use crate::formula::{Formula, One, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack2, unorm_max, unpack2};
-use crate::math::{atan2_half_turns, normalize, sin_cos_half_turns, sqrt};
+use crate::math::{atan2_half_turns, normalize, sin_cos_quarter_turns, sqrt};
 
 /// Phi-z in `BITS` bits.
 pub(crate) struct PhiZ<const BITS: u32>;
@@ -45,7 +45,7 @@ impl<const BITS: u32> PhiZ<BITS> {
         let max = L::Int::splat(Self::M);
         let [phi, z] = params.each(|i| i + i - max);
         let step = L::splat(1.0 / Self::M as f32);
-        let (sin, cos) = sin_cos_half_turns(L::from_int(phi) * step);
+        let (sin, cos) = sin_cos_quarter_turns(L::from_int(phi) * (step + step));
         // 1 - z^2, without cancellation.
         let rr = (L::from_int(max - z) * step) * (L::from_int(max + z) * step);
         let r = sqrt(rr);

@@ -15,7 +15,7 @@
 use crate::formula::{Formula, One, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
-use crate::math::{atan2_half_turns, sin_cos_half_turns, sqrt};
+use crate::math::{atan2_half_turns, sin_cos_of_one, sin_cos_quarter_turns, sqrt};
 
 /// Spherical in `BITS` bits.
 pub(crate) struct Spherical<const BITS: u32>;
@@ -64,8 +64,8 @@ impl<const BITS: u32> Formula for Spherical<BITS> {
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         let [u, w] = unpack_snorm2::<BITS, L>(code);
         let step = 1.0 / Self::M as f32;
-        let (sin_u, cos_u) = sin_cos_half_turns(L::from_int(u) * L::splat(0.5 * step));
-        let (sin_phi, cos_phi) = sin_cos_half_turns(L::from_int(w) * L::splat(step));
+        let (sin_u, cos_u) = sin_cos_of_one(L::from_int(u) * L::splat(step));
+        let (sin_phi, cos_phi) = sin_cos_quarter_turns(L::from_int(w) * L::splat(2.0 * step));
         [cos_u * cos_phi, cos_u * sin_phi, -sin_u]
     }
 
