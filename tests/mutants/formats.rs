@@ -131,3 +131,32 @@ fn names_are_read_back() {
         "no format has this name; the names are those of Format::ALL, such as \"oct16\""
     );
 }
+
+/// Vectors of `N` components in more than one block of lanes, and a rest.
+fn structures_are_rearranged<const N: usize>() {
+    let vectors: Vec<[f32; N]> = vectors()
+        .iter()
+        .take(45)
+        .map(|v| std::array::from_fn(|i| v.get(i).copied().unwrap_or(100.0 + i as f32)))
+        .collect();
+    let mut codes = vec![0; vectors.len()];
+    Oct16::encode_aos(&vectors, &mut codes).unwrap();
+    for (v, &code) in vectors.iter().zip(&codes) {
+        assert_eq!(code, Oct16::encode([v[0], v[1], v[2]]), "{v:?}");
+    }
+    let mut decoded = vectors.clone();
+    Oct16::decode_aos(&codes, &mut decoded).unwrap();
+    for ((v, decoded), &code) in vectors.iter().zip(&decoded).zip(&codes) {
+        assert_eq!(decoded[..3], Oct16::decode(code));
+        assert_eq!(decoded[3..], v[3..]);
+    }
+}
+
+#[test]
+fn structures_of_any_size_are_rearranged() {
+    structures_are_rearranged::<3>();
+    structures_are_rearranged::<4>();
+    structures_are_rearranged::<5>();
+    structures_are_rearranged::<8>();
+    structures_are_rearranged::<9>();
+}
