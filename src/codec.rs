@@ -256,19 +256,41 @@ macro_rules! codecs {
 codecs! {
     "[Octahedral](https://jcgt.org/published/0003/02/01/): the sphere unfolded from an octahedron into a square. Two snorm \
      [parameters](Codec#bit-layout). All six axes survive exactly." {
-        Oct8: u8 = "oct8", 8 bits, 17.26 / 11.47 degrees, oct::Oct<8>;
-        Oct10: u16 = "oct10", 10 bits, 8.082 / 5.373 degrees, oct::Oct<10>;
-        Oct12: u16 = "oct12", 12 bits, 3.935 / 2.623 degrees, oct::Oct<12>;
-        Oct14: u16 = "oct14", 14 bits, 1.937 / 1.291 degrees, oct::Oct<14>;
-        Oct16: u16 = "oct16", 16 bits, 0.9609 / 0.6406 degrees, oct::Oct<16>;
-        Oct18: u32 = "oct18", 18 bits, 0.4786 / 0.3191 degrees, oct::Oct<18>;
-        Oct20: u32 = "oct20", 20 bits, 0.2388 / 0.1592 degrees, oct::Oct<20>;
-        Oct22: u32 = "oct22", 22 bits, 0.1193 / 0.07953 degrees, oct::Oct<22>;
-        Oct24: [u8; 3] = "oct24", 24 bits, 0.05962 / 0.03975 degrees, oct::Oct<24>;
-        Oct26: u32 = "oct26", 26 bits, 0.02981 / 0.01987 degrees, oct::Oct<26>;
-        Oct28: u32 = "oct28", 28 bits, 0.01490 / 0.009934 degrees, oct::Oct<28>;
-        Oct30: u32 = "oct30", 30 bits, 0.007460 / 0.004968 degrees, oct::Oct<30>;
-        Oct32: u32 = "oct32", 32 bits, 0.003736 / 0.002486 degrees, oct::Oct<32>;
+        Oct8: u8 = "oct8", 8 bits, 17.26 / 11.47 degrees, oct::Oct<oct::Central, 8>;
+        Oct10: u16 = "oct10", 10 bits, 8.082 / 5.373 degrees, oct::Oct<oct::Central, 10>;
+        Oct12: u16 = "oct12", 12 bits, 3.935 / 2.623 degrees, oct::Oct<oct::Central, 12>;
+        Oct14: u16 = "oct14", 14 bits, 1.937 / 1.291 degrees, oct::Oct<oct::Central, 14>;
+        Oct16: u16 = "oct16", 16 bits, 0.9609 / 0.6406 degrees, oct::Oct<oct::Central, 16>;
+        Oct18: u32 = "oct18", 18 bits, 0.4786 / 0.3191 degrees, oct::Oct<oct::Central, 18>;
+        Oct20: u32 = "oct20", 20 bits, 0.2388 / 0.1592 degrees, oct::Oct<oct::Central, 20>;
+        Oct22: u32 = "oct22", 22 bits, 0.1193 / 0.07953 degrees, oct::Oct<oct::Central, 22>;
+        Oct24: [u8; 3] = "oct24", 24 bits, 0.05962 / 0.03975 degrees, oct::Oct<oct::Central, 24>;
+        Oct26: u32 = "oct26", 26 bits, 0.02981 / 0.01987 degrees, oct::Oct<oct::Central, 26>;
+        Oct28: u32 = "oct28", 28 bits, 0.01490 / 0.009934 degrees, oct::Oct<oct::Central, 28>;
+        Oct30: u32 = "oct30", 30 bits, 0.007460 / 0.004968 degrees, oct::Oct<oct::Central, 30>;
+        Oct32: u32 = "oct32", 32 bits, 0.003736 / 0.002486 degrees, oct::Oct<oct::Central, 32>;
+    }
+    "Octahedral with cells of about the same size: each coordinate of [`Oct16`]'s octahedron warped by a cubic. With \
+     `encode_precise` the least greatest error of all formats of its size. oct, denser around the axes, has the smaller mean error \
+     where normals crowd there, as on built geometry. Two snorm [parameters](Codec#bit-layout). All six axes survive exactly." {
+        WarpedOct16: u16 = "warpedoct16", 16 bits, 0.8893 / 0.5198 degrees, oct::Oct<oct::Warped, 16>;
+        WarpedOct20: u32 = "warpedoct20", 20 bits, 0.2211 / 0.1289 degrees, oct::Oct<oct::Warped, 20>;
+        WarpedOct22: u32 = "warpedoct22", 22 bits, 0.1105 / 0.06450 degrees, oct::Oct<oct::Warped, 22>;
+        WarpedOct24: [u8; 3] = "warpedoct24", 24 bits, 0.05521 / 0.03223 degrees, oct::Oct<oct::Warped, 24>;
+        WarpedOct32: u32 = "warpedoct32", 32 bits, 0.003486 / 0.002014 degrees, oct::Oct<oct::Warped, 32>;
+    }
+    "Octahedral with cells of equal area, as environment maps have it. Two snorm [parameters](Codec#bit-layout). All six axes \
+     survive exactly." {
+        EqAreaOct16: u16 = "eqareaoct16", 16 bits, 0.9710 / 0.5848 degrees, oct::Oct<oct::EqualArea, 16>;
+        EqAreaOct24: [u8; 3] = "eqareaoct24", 24 bits, 0.06045 / 0.03694 degrees, oct::Oct<oct::EqualArea, 24>;
+        EqAreaOct32: u32 = "eqareaoct32", 32 bits, 0.003800 / 0.002313 degrees, oct::Oct<oct::EqualArea, 32>;
+    }
+    "[Octahedral](https://jcgt.org/published/0003/02/01/) whose steps are a multiple of six: 126, 2046 or 32766. Two snorm \
+     [parameters](Codec#bit-layout), of which greater ones read as the greatest. All six axes and all middles of the edges and \
+     corners of a cube, such as (1, 1, 0) and (1, 1, 1), survive exactly." {
+        SixOct16: u16 = "sixoct16", 16 bits, 0.9694 / 0.6462 degrees, oct::Oct<oct::Central, 16, 6>;
+        SixOct24: [u8; 3] = "sixoct24", 24 bits, 0.05972 / 0.03981 degrees, oct::Oct<oct::Central, 24, 6>;
+        SixOct32: u32 = "sixoct32", 32 bits, 0.003742 / 0.002489 degrees, oct::Oct<oct::Central, 32, 6>;
     }
     "Cartesian: the three components, x in the low bits, as many bits each as the name says; decoding divides by the length. Snorm \
      -M-1 reads as -M, infinite and NaN halves as 65504, (0, 0, 0) as +Z. Of the patterns of one direction the one whose length \

@@ -282,7 +282,7 @@ macro_rules! sign_symmetric {
 }
 
 sign_symmetric! {
-    Oct8 Oct10 Oct12 Oct14 Oct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
+    Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
     Stereo16 StereoConcentric16 StereoEllipse16
     EqArea16 EqAreaConcentric16 EqAreaEllipse16
     EqDist16 EqDistConcentric16 EqDistEllipse16

@@ -9,7 +9,8 @@ const ALL: &[&str] = &["+X", "-X", "+Y", "-Y", "+Z", "-Z"];
 fn exact_axes(name: &str, precise: bool) -> &'static [&'static str] {
     let family = name.trim_end_matches(|c: char| c.is_ascii_digit());
     match family {
-        "oct" | "cube" | "warpedcube" | "octant" | "icosphere" => ALL,
+        "oct" | "warpedoct" | "eqareaoct" | "sixoct" | "cube" | "warpedcube" | "octant"
+        | "icosphere" => ALL,
         "spherical" => &["+X", "-X", "+Z", "-Z"],
         "HemiOct" | "XYOnly32F" => &["+X", "-X", "+Y", "-Y", "+Z"],
         "latlong" => &["+X", "+Z", "-Z"],

@@ -178,7 +178,7 @@ fn run(checks: &[(Format, fn())], listed: impl Fn(Format) -> bool) {
 macro_rules! each_of_16_bits_at_most {
     ($check:ident) => {
         each!($check:
-            Oct8 Oct10 Oct12 Oct14 Oct16 Octant16 OctUnorm8x2 Snorm5x3 Spherical16 PhiZUnorm8x2
+            Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 OctUnorm8x2 Snorm5x3 Spherical16 PhiZUnorm8x2
             HemiOct16 XyOnly16 LatLong16 LatLong16D Cube16 WarpedCube16
             Stereo16 StereoConcentric16 StereoEllipse16 EqArea16 EqAreaConcentric16
             EqAreaEllipse16 EqDist16 EqDistConcentric16 EqDistEllipse16
@@ -201,7 +201,7 @@ fn tables_chosen_at_run_time_decode_the_same() {
 #[test]
 fn octants_decode_the_same() {
     let checks = each!(check_octant:
-        Oct8 Oct10 Oct12 Oct14 Oct16 Octant16 Snorm5x3 HemiOct16 XyOnly16 Cube16 WarpedCube16
+        Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16 Cube16 WarpedCube16
         Stereo16 StereoConcentric16 StereoEllipse16 EqArea16 EqAreaConcentric16 EqAreaEllipse16
         EqDist16 EqDistConcentric16 EqDistEllipse16
         AngularCube4 AngularCube5 AngularCube6 AngularCube7 AngularCube8 AngularCube9

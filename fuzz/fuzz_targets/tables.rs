@@ -56,15 +56,15 @@ macro_rules! entries {
     };
 }
 
-static ENTRIES: [Entry; 72] = entries! {
-    octant: Oct8 Oct10 Oct12 Oct14 Oct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
+static ENTRIES: [Entry; 78] = entries! {
+    octant: Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
         Stereo16 StereoConcentric16 StereoEllipse16
         EqArea16 EqAreaConcentric16 EqAreaEllipse16
         EqDist16 EqDistConcentric16 EqDistEllipse16 Cube16 WarpedCube16
         AngularCube4 AngularCube5 AngularCube6 AngularCube7 AngularCube8 AngularCube9
         AngularCube10 AngularCube11 AngularCube12 AngularCube13 AngularCube14 AngularCube15
         AngularCube16;
-    whole: Oct8 Oct10 Oct12 Oct14 Oct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
+    whole: Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
         Stereo16 StereoConcentric16 StereoEllipse16
         EqArea16 EqAreaConcentric16 EqAreaEllipse16
         EqDist16 EqDistConcentric16 EqDistEllipse16 Cube16 WarpedCube16

@@ -1,41 +1,189 @@
-//! Octahedral: the sphere projected onto an octahedron, its lower half folded out into a square.
+//! Octahedral: the sphere mapped to an octahedron, its lower half folded out into a square.
 //!
 //! ```text
-//! encode   p = v / (|x| + |y| + |z|)
+//! encode   p = the point of the octahedron, |p.x| + |p.y| + |p.z| = 1, signs as v has them
+//!            oct         p = v / (|x| + |y| + |z|)
+//!            warpedoct   g(|p.x|) : g(|p.y|) : g(|p.z|) = |x| : |y| : |z|
+//!            eqareaoct   |p.z| = 1 - r, |p.x| = r (1 - a), |p.y| = r a
+//!                        r = sqrt(1 - |z| / |v|), a = (2 / pi) atan2(|y|, |x|)
 //!          (u, w) = (p.x, p.y)                                       if z >= 0
 //!                   ((1 - |p.y|) sgn p.x, (1 - |p.x|) sgn p.y)       if z < 0
 //!          code = snorm(u), snorm(w)
-//! decode   p = (u, w, 1 - |u| - |w|), the fold undone if p.z < 0; v = p / |p|
+//! decode   p = (u, w, 1 - |u| - |w|), the fold undone if p.z < 0
+//!            oct         v = p / |p|
+//!            warpedoct   v = (g(|p.x|), g(|p.y|), g(|p.z|)), signs copied, over its length
+//!            eqareaoct   |z| = 1 - r^2, |x| = r sqrt(2 - r^2) cos(a pi / 2), |y| = r sqrt(2 - r^2) sin(a pi / 2)
 //! ```
 //!
-//! In integers, with M = 2^(BITS/2 - 1) - 1 steps, the representable points are the (i, j, k) with
-//! i + j + k = M in each octant: a triangular lattice. The nearest of them to v is one of the three
-//! corners of the triangle that p lies in, since no triangle is obtuse once seen from the centre.
+//! In integers, with M steps, the representable points are the (i, j, k) with i + j + k = M in each
+//! octant: a triangular lattice. M is 2^(BITS/2 - 1) - 1, in sixoct the greatest multiple of 6 below, so
+//! that the middles of a cube's edges and its corners are points. The nearest of them to v is one of the
+//! three corners of the triangle that p lies in: no triangle of oct is obtuse once seen from the centre,
+//! and of the others no counterexample is known (`tools/proof nearest`).
+//!
+//! warpedoct evens out the areas of oct's triangles: g(t) = t (1 + (K + Q t) (1 - t)), where K and Q
+//! make the greatest error least (`examples/warp.rs` finds them). Its inverse is Newton's method for all
+//! three components at once: with the gradients d = g'(p), p += (s |v| - g(p)) / d, where the length
+//! s = (sum(g(p) / d) + 1 - sum(p)) / sum(|v| / d) makes their sum 1.
 //!
 //! Canonical: on the border of the square the points (u, +-M) and (+-M, w) stand for one direction
 //! where the folded coordinate is zero; the positive sign is the one emitted. Axes survive exactly.
 //!
 //! Source: Meyer, Süßmuth, Sußner, Stamminger and Greiner, "On Floating-Point Normal Vectors",
 //! 2010; Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
-//! 2014.
+//! 2014; eqareaoct: Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", 2008; the
+//! warp and sixoct are unitpack's.
 
-use crate::formula::{Formula, One, Symmetric, closest_of_four};
+use core::marker::PhantomData;
+
+use crate::formula::{Closest, Formula, One, Symmetric, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::layout::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
 use crate::math;
 
-/// Octahedral in `BITS` bits.
-pub(crate) struct Oct<const BITS: u32>;
+/// Octahedral with the map `P` in `BITS` bits; the steps are a multiple of `MULTIPLE`.
+pub(crate) struct Oct<P, const BITS: u32, const MULTIPLE: i32 = 1>(PhantomData<P>);
 
-impl<const BITS: u32> Oct<BITS> {
-    const M: i32 = snorm_max(BITS / 2);
+/// How an octant of the sphere is mapped to a face of the octahedron.
+pub(crate) trait Projection: 'static {
+    /// The point of |v|, whose components add to `m`.
+    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3];
+    /// The unit vector of a point whose magnitudes add to 1.
+    fn direction<L: Lane>(p: [L; 3]) -> [L; 3];
+    /// The lattice point nearest to |v|.
+    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3];
+}
 
-    /// |v| on the octahedron, scaled to M.
+/// Along the rays from the centre.
+pub(crate) struct Central;
+/// With triangles of about the same size.
+pub(crate) struct Warped;
+/// With equal areas.
+pub(crate) struct EqualArea;
+
+impl Projection for Central {
     #[inline(always)]
-    fn project<L: Lane>(v: [L; 3]) -> [L; 3] {
+    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
         let [x, y, z] = v.each(|c| c.abs());
-        let scale = L::splat(Self::M as f32) / (x + y + z);
+        let scale = L::splat(m as f32) / (x + y + z);
         [x * scale, y * scale, z * scale]
+    }
+    #[inline(always)]
+    fn direction<L: Lane>(p: [L; 3]) -> [L; 3] {
+        math::normalize(p)
+    }
+    #[inline(always)]
+    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+        nearest_on_octahedron(Self::project(v, m), m)
+    }
+}
+
+impl Warped {
+    /// See `examples/warp.rs`.
+    const K: f32 = 0.459_265;
+    const Q: f32 = -0.710_567;
+
+    /// g(t) = t (1 + (k + q t) (1 - t)); odd.
+    #[inline(always)]
+    fn warp<L: Lane>(t: L, [k, q]: [f32; 2]) -> L {
+        let magnitude = t.abs();
+        t * (L::splat(1.0) + (L::splat(k) + L::splat(q) * magnitude) * (L::splat(1.0) - magnitude))
+    }
+
+    /// g'(t).
+    #[inline(always)]
+    fn gradient<L: Lane>(t: L) -> L {
+        L::splat(1.0 + Self::K)
+            + t * (L::splat(2.0 * (Self::Q - Self::K)) - L::splat(3.0 * Self::Q) * t)
+    }
+}
+
+impl Projection for Warped {
+    #[inline(always)]
+    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+        let target = v.each(|c| c.abs());
+        // Its inverse about, without which two steps would not be enough for 32 bits.
+        let mut p = Central::project(v, 1).each(
+            #[inline(always)]
+            |t| Self::warp(t, [-0.35, 0.7]),
+        );
+        for _ in 0..2 {
+            let g = p.each(
+                #[inline(always)]
+                |t| Self::warp(t, [Self::K, Self::Q]),
+            );
+            let per_gradient = p.each(
+                #[inline(always)]
+                |t| L::splat(1.0) / Self::gradient(t),
+            );
+            let off = L::splat(1.0) - (p[0] + p[1] + p[2]);
+            let s = (math::dot(g, per_gradient) + off) / math::dot(target, per_gradient);
+            p = [0, 1, 2].each(
+                #[inline(always)]
+                |i: usize| p[i] + (s * target[i] - g[i]) * per_gradient[i],
+            );
+        }
+        p.each(
+            #[inline(always)]
+            |t| t.greater(L::zero()) * L::splat(m as f32),
+        )
+    }
+    #[inline(always)]
+    fn direction<L: Lane>(p: [L; 3]) -> [L; 3] {
+        math::normalize(p.each(
+            #[inline(always)]
+            |t| Self::warp(t, [Self::K, Self::Q]),
+        ))
+    }
+    #[inline(always)]
+    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+        nearest_corner::<Self, L>(v, m)
+    }
+}
+
+impl Projection for EqualArea {
+    #[inline(always)]
+    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+        let [x, y, z] = math::normalize(v.each(|c| c.abs()));
+        // 1 - z, and 1 - r, without cancellation.
+        let r = math::sqrt((x * x + y * y) / (L::splat(1.0) + z));
+        let k = z / (L::splat(1.0) + r);
+        let a = math::atan2_half_turns(y, x);
+        let scale = L::splat(m as f32);
+        [r * (L::splat(1.0) - (a + a)) * scale, r * (a + a) * scale, k * scale]
+    }
+    #[inline(always)]
+    fn direction<L: Lane>([x, y, z]: [L; 3]) -> [L; 3] {
+        let one = L::splat(1.0);
+        let (r, k) = (x.abs() + y.abs(), z.abs());
+        let (sin, cos) = math::sin_cos_of_one(y.abs() / r.greater(L::splat(f32::MIN_POSITIVE)));
+        // 2 - r^2 = 1 + z.
+        let height = k * (one + r);
+        let h = r * math::sqrt(one + height);
+        let v = [h * cos, h * sin, height];
+        math::normalize([
+            v[0].negate_where_negative(x),
+            v[1].negate_where_negative(y),
+            v[2].negate_where_negative(z),
+        ])
+    }
+    #[inline(always)]
+    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+        nearest_corner::<Self, L>(v, m)
+    }
+}
+
+impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Oct<P, BITS, MULTIPLE> {
+    const M: i32 = snorm_max(BITS / 2) / MULTIPLE * MULTIPLE;
+
+    #[inline(always)]
+    fn unpack<L: Lane>(code: L::Int) -> [L::Int; 2] {
+        let params = unpack_snorm2::<BITS, L>(code);
+        if MULTIPLE == 1 {
+            return params;
+        }
+        let max = L::Int::splat(Self::M);
+        params.each(|p| p.max(-max).min(max))
     }
 
     /// Gives the magnitudes `u`, `w` the signs of `x`, `y`, but where a sign says nothing, plus.
@@ -50,12 +198,12 @@ impl<const BITS: u32> Oct<BITS> {
     }
 }
 
-impl<const BITS: u32> Formula for Oct<BITS> {
+impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Formula for Oct<P, BITS, MULTIPLE> {
     type Words = One;
 
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
-        let [x, y, _] = Self::project(v);
+        let [x, y, _] = P::project(v, Self::M);
         let max = L::splat(Self::M as f32);
         // Fold the lower half over the diagonals.
         let lower = v[2].lt(L::zero());
@@ -67,7 +215,7 @@ impl<const BITS: u32> Formula for Oct<BITS> {
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         let max = L::splat(Self::M as f32);
-        let [i, j, _] = nearest_on_octahedron(Self::project(v), Self::M);
+        let [i, j, _] = P::nearest(v, Self::M);
         let lower = v[2].lt(L::zero());
         let u = L::select(lower, max - j, i).round_int();
         let w = L::select(lower, max - i, j).round_int();
@@ -76,23 +224,23 @@ impl<const BITS: u32> Formula for Oct<BITS> {
 
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        unfold::<L>(unpack_snorm2::<BITS, L>(code), Self::M)
+        P::direction(unfold::<L>(Self::unpack::<L>(code), Self::M))
     }
 
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        let point = plus_on_border::<L>(unpack_snorm2::<BITS, L>(code), Self::M);
+        let point = plus_on_border::<L>(Self::unpack::<L>(code), Self::M);
         pack_snorm2::<BITS, L>(point)
     }
 }
 
-impl<const BITS: u32> Symmetric for Oct<BITS> {
+impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Symmetric for Oct<P, BITS, MULTIPLE> {
     const ENTRIES: usize = triangle_len(Self::M);
 
     #[inline(always)]
     fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
         let (max, zero) = (L::Int::splat(Self::M), L::Int::splat(0));
-        let [u, w] = unpack_snorm2::<BITS, L>(code);
+        let [u, w] = Self::unpack::<L>(code);
         let (i, j) = (u.abs(), w.abs());
         let lower = max.lt(i + j);
         let (i, j) = (L::Int::select(lower, max - j, i), L::Int::select(lower, max - i, j));
@@ -113,7 +261,7 @@ pub(crate) fn triangle_index<L: Lane>(i: L::Int, j: L::Int) -> L::Int {
     (n * (n + L::Int::splat(1))).shr(1) + j
 }
 
-/// The vector of a point of the square from -m to m.
+/// The point of the octahedron, whose magnitudes add to 1, of one of the square from -m to m.
 #[inline(always)]
 fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
     let (max, zero) = (L::Int::splat(m), L::Int::splat(0));
@@ -125,7 +273,7 @@ fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
     );
     // Below the diagonals, where more is left over than is there, fold back.
     let p = [copy_sign(i.min(left_i), u), copy_sign(j.min(left_j), w), left_i - i];
-    math::normalize(p.each(|c| L::from_int(c) * L::splat(1.0 / m as f32)))
+    p.each(|c| L::from_int(c) * L::splat(1.0 / m as f32))
 }
 
 /// The canonical one of a point of the square from -m to m and its mirror image on the border.
@@ -188,7 +336,7 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
             #[inline(always)]
             |indices| {
                 let point = Self::canonical_point::<L>(indices);
-                (Self::pack::<L>(point), unfold::<L>(point, Self::M))
+                (Self::pack::<L>(point), Central::direction(unfold::<L>(point, Self::M)))
             },
         )
     }
@@ -196,7 +344,8 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         let max = L::Int::splat(Self::M);
-        unfold::<L>(unpack2::<BITS, L>(code).each(|i| i + i - max), Self::M)
+        let point = unpack2::<BITS, L>(code).each(|i| i + i - max);
+        Central::direction(unfold::<L>(point, Self::M))
     }
 
     #[inline(always)]
@@ -205,21 +354,47 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
     }
 }
 
-/// Of the lattice points i + j + k = m of an octant, the one nearest in angle to `p`, whose
-/// components are >= 0 and add to m.
+/// The triangle of the lattice i + j + k = m that `p` lies in, whose components are >= 0 and add to m:
+/// a point, and what has to be added to one component or another for its corners.
 #[inline(always)]
-pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
+fn triangle_around<L: Lane>(p: [L; 3], m: i32) -> ([L; 3], L) {
     let max = L::splat(m as f32);
     let one = L::splat(1.0);
     let floor = p.each(
         #[inline(always)]
         |c| c.floor(),
     );
-    // The triangle around p: one short of M above the floors, or two.
+    // One short of M above the floors, or two.
     let short = max - floor[0] - floor[1] - floor[2];
     let down = L::splat(1.5).lt(short);
     let base = floor.each(|c| L::select(down, c + one, c));
-    let step = max - base[0] - base[1] - base[2];
+    (base, max - base[0] - base[1] - base[2])
+}
+
+/// Of the corners of the triangle around |v|, the nearest to it.
+#[inline(always)]
+fn nearest_corner<P: Projection, L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+    let v = v.each(|c| c.abs());
+    let (base, step) = triangle_around(P::project(v, m), m);
+    let mut closest = Closest::to(v);
+    for axis in 0..3 {
+        let mut q = base;
+        q[axis] = q[axis] + step;
+        let decoded = P::direction(q.each(|c| c * L::splat(1.0 / m as f32)));
+        closest.consider(L::Int::splat(axis as i32), decoded);
+    }
+    let axis = closest.code();
+    [0, 1, 2].each(
+        #[inline(always)]
+        |i: usize| L::select(axis.eq(L::Int::splat(i as i32)), base[i] + step, base[i]),
+    )
+}
+
+/// Of the lattice points i + j + k = m of an octant, the one nearest in angle to `p`, whose
+/// components are >= 0 and add to m.
+#[inline(always)]
+pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
+    let (base, step) = triangle_around(p, m);
     // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
     let pp = math::length_squared(p);
     let corner = inlined(

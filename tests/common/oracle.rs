@@ -185,7 +185,10 @@ pub fn oracle(name: &str) -> Option<Oracle> {
     let (bits, representation): (u32, Box<dyn Representation>) = match (family, size) {
         ("latlong", 16 | 24 | 32) if stem != name => (size, Box::new(LatLongD::new(size))),
         _ if stem != name => return None,
-        ("oct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm)))),
+        ("oct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm), &Central))),
+        ("warpedoct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm), &Warped))),
+        ("eqareaoct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm), &EqualArea))),
+        ("sixoct", 1..) => (size, Box::new(Oct(pair(Kind::Sixes), &Central))),
         ("spherical", 1..) => (size, Box::new(Spherical::new(pair(Kind::Snorm)))),
         ("HemiOct", 1..) => (size, Box::new(HemiOct(pair(Kind::Snorm)))),
         ("XYOnly", 1..) => (size, Box::new(XyOnly(Component::Unorm(pair(Kind::Unorm))))),
@@ -208,8 +211,8 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         ("CrytekBFN", 24) => (24, Box::new(BestFit(Unorm(8)))),
         ("phi-z-unorm8x", 2) => (16, Box::new(PhiZ::new(8))),
         ("phi-z-unorm16x", 2) => (32, Box::new(PhiZ::new(16))),
-        ("oct-unorm8x", 2) => (16, Box::new(Oct(Pair { bits: 8, kind: Kind::Unorm }))),
-        ("oct-unorm16x", 2) => (32, Box::new(Oct(Pair { bits: 16, kind: Kind::Unorm }))),
+        ("oct-unorm8x", 2) => (16, Box::new(Oct(Pair { bits: 8, kind: Kind::Unorm }, &Central))),
+        ("oct-unorm16x", 2) => (32, Box::new(Oct(Pair { bits: 16, kind: Kind::Unorm }, &Central))),
         (_, 1..) => {
             let (projection, stretch) = family.split_once('+').unwrap_or((family, ""));
             let projection = match projection {
@@ -262,6 +265,8 @@ struct Pair {
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Snorm,
+    /// Snorm with fewer steps, a multiple of six.
+    Sixes,
     Unorm,
 }
 
@@ -270,6 +275,7 @@ impl Pair {
     fn steps(self) -> i64 {
         match self.kind {
             Kind::Snorm => snorm_steps(self.bits),
+            Kind::Sixes => snorm_steps(self.bits) / 6 * 6,
             Kind::Unorm => (1 << self.bits) - 1,
         }
     }
@@ -277,7 +283,7 @@ impl Pair {
     /// Where a number from -1 to 1 stands.
     fn position(self, t: f64) -> f64 {
         match self.kind {
-            Kind::Snorm => t * self.steps() as f64,
+            Kind::Snorm | Kind::Sixes => t * self.steps() as f64,
             Kind::Unorm => (t + 1.0) / 2.0 * self.steps() as f64,
         }
     }
@@ -286,7 +292,7 @@ impl Pair {
     fn value(self, param: i64) -> f64 {
         let steps = self.steps();
         match self.kind {
-            Kind::Snorm => param as f64 / steps as f64,
+            Kind::Snorm | Kind::Sixes => param as f64 / steps as f64,
             // The numerator is whole, so that values are symmetric about 0.
             Kind::Unorm => (2 * param - steps) as f64 / steps as f64,
         }
@@ -295,20 +301,20 @@ impl Pair {
     /// The parameter of the same magnitude, not negative.
     fn magnitude(self, param: i64) -> i64 {
         match self.kind {
-            Kind::Snorm => param.abs(),
+            Kind::Snorm | Kind::Sixes => param.abs(),
             Kind::Unorm => param.max(self.steps() - param),
         }
     }
 
     fn range(self) -> Params<(i64, i64)> {
         let steps = self.steps();
-        let one = if self.kind == Kind::Snorm { (-steps, steps) } else { (0, steps) };
+        let one = if self.kind == Kind::Unorm { (0, steps) } else { (-steps, steps) };
         [one, one, (0, 0)]
     }
 
     fn pack(self, [u, v, _]: Params<i64>) -> u128 {
         if self.bits == 12 {
-            let bias = if self.kind == Kind::Snorm { 2047 } else { 0 };
+            let bias = if self.kind == Kind::Unorm { 0 } else { 2047 };
             let [u, v] = [u + bias, v + bias];
             let rgb = [u >> 4, (u & 15) << 4 | v >> 8, v & 255];
             rgb.iter().rev().fold(0, |code, &byte| code << 8 | byte as u128)
@@ -321,9 +327,9 @@ impl Pair {
     fn unpack(self, code: u128) -> Params<i64> {
         let [u, v] = if self.bits == 12 {
             let [r, g, b] = [0, 8, 16].map(|shift| unsigned_field(code, shift, 8));
-            let bias = if self.kind == Kind::Snorm { 2047 } else { 0 };
+            let bias = if self.kind == Kind::Unorm { 0 } else { 2047 };
             [(r << 4 | g >> 4) - bias, ((g & 15) << 8 | b) - bias]
-        } else if self.kind == Kind::Snorm {
+        } else if self.kind != Kind::Unorm {
             [signed_field(code, 0, self.bits), signed_field(code, self.bits, self.bits)]
         } else {
             [unsigned_field(code, 0, self.bits), unsigned_field(code, self.bits, self.bits)]
@@ -337,13 +343,93 @@ fn sign(t: f64) -> f64 {
     if t >= 0.0 { 1.0 } else { -1.0 }
 }
 
-struct Oct(Pair);
+/// Between the sphere and the octahedron |x| + |y| + |z| = 1.
+trait Octahedral: Send + Sync {
+    fn to_octahedron(&self, v: [f64; 3]) -> [f64; 3];
+    fn to_sphere(&self, p: [f64; 3]) -> [f64; 3];
+}
+
+struct Central;
+
+impl Octahedral for Central {
+    fn to_octahedron(&self, v: [f64; 3]) -> [f64; 3] {
+        let k = 1.0 / v.iter().map(|c| c.abs()).sum::<f64>();
+        v.map(|c| c * k)
+    }
+    fn to_sphere(&self, p: [f64; 3]) -> [f64; 3] {
+        normalize(p)
+    }
+}
+
+/// Each coordinate t of the octahedron stands for t (1 + (k + q t) (1 - t)).
+struct Warped;
+
+impl Warped {
+    /// The polynomial in powers of t, and its slope.
+    fn warp(t: f64) -> (f64, f64) {
+        let (k, q) = (0.459265, -0.710567);
+        let [a, b, c] = [1.0 + k, q - k, -q];
+        ((a + (b + c * t) * t) * t, a + (2.0 * b + 3.0 * c * t) * t)
+    }
+
+    fn unwarp(g: f64) -> f64 {
+        let mut t = g / 1.46;
+        for _ in 0..100 {
+            let (value, slope) = Self::warp(t);
+            let step = (g - value) / slope;
+            t += step;
+            if step.abs() < 1e-15 {
+                break;
+            }
+        }
+        t
+    }
+}
+
+impl Octahedral for Warped {
+    fn to_octahedron(&self, v: [f64; 3]) -> [f64; 3] {
+        // How long v has to be for coordinates that add to 1.
+        let mut scale = 1.0 / v.iter().map(|c| c.abs()).sum::<f64>();
+        for _ in 0..100 {
+            let t = v.map(|c| Self::unwarp(c.abs() * scale));
+            let slope: f64 = (0..3).map(|i| v[i].abs() / Self::warp(t[i]).1).sum();
+            let step = (1.0 - t.iter().sum::<f64>()) / slope;
+            scale += step;
+            if step.abs() < 1e-15 {
+                break;
+            }
+        }
+        v.map(|c| Self::unwarp(c.abs() * scale) * sign(c))
+    }
+    fn to_sphere(&self, p: [f64; 3]) -> [f64; 3] {
+        normalize(p.map(|t| Self::warp(t.abs()).0 * sign(t)))
+    }
+}
+
+/// Clarberg's, 2008.
+struct EqualArea;
+
+impl Octahedral for EqualArea {
+    fn to_octahedron(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        // 1 - |z| loses digits near the poles.
+        let r = (x * x + y * y).sqrt() / (1.0 + z.abs()).sqrt();
+        let v = r * y.abs().atan2(x.abs()) / FRAC_PI_2;
+        [(r - v) * sign(x), v * sign(y), (1.0 - r) * sign(z)]
+    }
+    fn to_sphere(&self, [u, v, w]: [f64; 3]) -> [f64; 3] {
+        let r = 1.0 - w.abs();
+        let phi = if r == 0.0 { 0.0 } else { FRAC_PI_4 * ((v.abs() - u.abs()) / r + 1.0) };
+        let h = r * (2.0 - r * r).sqrt();
+        [h * phi.cos() * sign(u), h * phi.sin() * sign(v), (1.0 - r * r) * sign(w)]
+    }
+}
+
+struct Oct(Pair, &'static dyn Octahedral);
 
 impl Representation for Oct {
-    fn params(&self, [x, y, z]: [f64; 3]) -> Params<f64> {
-        let k = 1.0 / (x.abs() + y.abs() + z.abs());
-        let (px, py) = (x * k, y * k);
-        let (u, w) = if z > 0.0 {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        let [px, py, pz] = self.1.to_octahedron(v);
+        let (u, w) = if pz > 0.0 {
             (px, py)
         } else {
             ((1.0 - py.abs()) * sign(px), (1.0 - px.abs()) * sign(py))
@@ -361,7 +447,7 @@ impl Representation for Oct {
         let z = 1.0 - u.abs() - w.abs();
         let (x, y) =
             if z < 0.0 { ((1.0 - w.abs()) * sign(u), (1.0 - u.abs()) * sign(w)) } else { (u, w) };
-        normalize([x, y, z])
+        self.1.to_sphere([x, y, z])
     }
     fn pack(&self, params: Params<i64>) -> u128 {
         self.0.pack(params)

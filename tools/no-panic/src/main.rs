@@ -51,6 +51,7 @@ impl Visitor for Everything {
         black_box(<C as Codec>::decode_soa(black_box(codes), buffers.write()).is_ok());
         arrays_of_structures::<C, 3>(codes);
         arrays_of_structures::<C, 4>(codes);
+        black_box(ErrorReport::of::<C>(buffers.read(), black_box(codes)).is_ok());
 
         let bytes = &mut [0; 12 * LEN];
         black_box(Format::encode(C::FORMAT, buffers.read(), opaque(bytes)).is_ok());
@@ -78,6 +79,7 @@ fn format(format: Format) {
     black_box((Format::name(format), Format::bits(format), Format::code_size(format)));
     black_box((Format::is_hemisphere(format), Format::max_error_degrees(format)));
     black_box(Format::max_error_precise_degrees(format));
+    black_box(Format::cheapest(black_box(0.5)));
     black_box(Format::from_name(black_box("oct16")));
     match <Format as FromStr>::from_str(black_box("oct16")) {
         Ok(format) => derived::<Format>(format),
@@ -265,7 +267,7 @@ fn decode_tables() {
     }
     // All that are sign-symmetric.
     codecs!(table_of_octant(vectors):
-        Oct8 Oct10 Oct12 Oct14 Oct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
+        Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
         Stereo16 StereoConcentric16 StereoEllipse16
         EqArea16 EqAreaConcentric16 EqAreaEllipse16
         EqDist16 EqDistConcentric16 EqDistEllipse16
