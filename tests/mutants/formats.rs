@@ -160,3 +160,64 @@ fn structures_of_any_size_are_rearranged() {
     structures_are_rearranged::<8>();
     structures_are_rearranged::<9>();
 }
+
+/// Radians, of vectors whose squares `f64` holds.
+fn angle(v: [f32; 3], w: [f32; 3]) -> f64 {
+    let [a, b] = [v, w].map(|v| v.map(f64::from));
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross = [0, 1, 2].map(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    });
+    dot(cross, cross).sqrt().atan2(dot(a, b))
+}
+
+#[test]
+fn reports_hold_the_errors() {
+    let ordinary = |v: &[f32; 3]| v.iter().all(|c| c.is_finite()) && *v != [0.0; 3];
+    let mut vectors: Vec<[f32; 3]> = vectors().into_iter().filter(ordinary).take(130).collect();
+    vectors[100] = [0.0, 0.1, -3.0];
+    let [x, y, z] = [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect::<Vec<f32>>());
+    let codes: Vec<u16> = vectors.iter().map(|&v| HemiOct16::encode(v)).collect();
+    let report = ErrorReport::of::<HemiOct16>(Soa { x: &x, y: &y, z: &z }, &codes).unwrap();
+    let errors: Vec<f64> = (vectors.iter().zip(&codes))
+        .map(|(&v, &code)| angle(v, HemiOct16::decode(code)).to_degrees())
+        .collect();
+    let n = errors.len() as f64;
+    let max = errors.iter().copied().fold(0.0, f64::max);
+    let squares: f64 = errors.iter().map(|e| e * e).sum();
+    let exact = [errors.iter().sum::<f64>() / n, (squares / n).sqrt(), max, errors[report.worst]];
+    let figures = [report.mean_degrees, report.rms_degrees, report.max_degrees, max];
+    for (figure, exact) in figures.iter().zip(exact) {
+        assert!((figure - exact).abs() <= 1e-6 * exact, "{report:?}: {exact}");
+    }
+    assert_eq!((report.count, max > 80.0), (vectors.len(), true));
+    let none = Soa { x: &[], y: &[], z: &[] };
+    assert_eq!(ErrorReport::of::<Oct8>(none, &[]), Ok(ErrorReport::default()));
+    let none = Soa { x: &[], y: &[], z: &[] };
+    assert!(ErrorReport::of::<Oct8>(none, &[1]).is_err());
+    let same = ErrorReport::of::<Float32x3>(
+        Soa { x: &[0.1], y: &[3.0], z: &[7.0] },
+        &[Float32x3::encode([0.1, 3.0, 7.0])],
+    );
+    assert_eq!(same.unwrap().max_degrees, 0.0);
+}
+
+#[test]
+fn the_cheapest_format_is_found() {
+    use Format::*;
+    let found = [0.0, 0.00124, 0.53, 0.5198, 0.5197, 11.47, 11.46, 11.0, 180.0, -1.0];
+    let expected = [Float32x3, Snorm16x3, WarpedOct16, WarpedOct16];
+    assert_eq!(found.map(Format::cheapest)[..4], expected.map(Some));
+    assert_eq!(
+        found.map(Format::cheapest)[4..],
+        [
+            Some(AngularCube17),
+            Some(AngularCube8),
+            Some(AngularCube8),
+            Some(AngularCube8),
+            Some(AngularCube4),
+            None
+        ]
+    );
+}
