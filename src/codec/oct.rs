@@ -112,15 +112,19 @@ impl Projection for Warped {
                 #[inline(always)]
                 |t| Self::warp(t, [Self::K, Self::Q]),
             );
-            let per_gradient = p.each(
+            let [x, y, z] = p.each(
                 #[inline(always)]
-                |t| L::splat(1.0) / Self::gradient(t),
+                |t| Self::gradient(t),
             );
-            let off = L::splat(1.0) - (p[0] + p[1] + p[2]);
-            let s = (math::dot(g, per_gradient) + off) / math::dot(target, per_gradient);
+            // Each gradient's inverse, and s, of one division.
+            let (others, all) = ([y * z, z * x, x * y], x * y * z);
+            let (along, off) = (math::dot(target, others), L::splat(1.0) - (p[0] + p[1] + p[2]));
+            let inverse = L::splat(1.0) / (along * all);
+            let (s, per_all) =
+                ((math::dot(g, others) + off * all) * all * inverse, along * inverse);
             p = [0, 1, 2].each(
                 #[inline(always)]
-                |i: usize| p[i] + (s * target[i] - g[i]) * per_gradient[i],
+                |i: usize| p[i] + (s * target[i] - g[i]) * (others[i] * per_all),
             );
         }
         p.each(
