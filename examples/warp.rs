@@ -98,13 +98,14 @@ fn main() {
     assert!(crate_agrees(), "the crate has other constants");
     let degrees = |radius: f64, bits: i32| (radius / (2f64.powi(bits / 2 - 1) - 1.0)).to_degrees();
     let (found, least) = best();
-    println!("                     K          Q   greatest error at 16, 24 and 32 bits, degrees");
+    println!("Greatest error in degrees, as if all triangles were as small as those of many bits:");
+    println!("                    K          Q   16 bits  24 bits   32 bits");
     for (name, constants) in [("oct", [0.0; 2]), ("crate", CRATE), ("found", found)] {
         let radius = greatest(constants);
         let errors = [16, 24, 32].map(|bits| degrees(radius, bits));
         let [k, q] = constants;
         println!(
-            "{name:>10}  {k:9.6}  {q:9.6}   {:.4}  {:.5}  {:.6}",
+            "{name:>10}  {k:9.6}  {q:9.6}    {:.4}  {:.5}  {:.6}",
             errors[0], errors[1], errors[2]
         );
     }

@@ -1,6 +1,7 @@
 //! Roots and trigonometry, written once for any number of lanes, from exact operations only.
 //!
-//! Arc tangents are in half turns: 1 is 180 degrees; sine and cosine take quarter turns. The polynomials interpolate at Chebyshev nodes.
+//! Arc tangents are in half turns: 1 is 180 degrees; sine and cosine take quarter turns. The
+//! polynomials interpolate at Chebyshev nodes.
 
 use crate::lane::{Each, Lane, LaneInt};
 

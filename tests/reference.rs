@@ -200,3 +200,34 @@ fn ties_go_to_even() {
     assert_eq!(HemiOct16::encode([2.0, 1.0, 251.0]).to_le_bytes(), [2, 0]);
     assert_eq!(HemiOct16::encode([4.0, 1.0, 249.0]).to_le_bytes(), [2, 2]);
 }
+
+/// Then the nearest point of a vector is a corner of the triangle around it.
+#[test]
+fn no_triangle_of_oct_and_warpedoct_is_obtuse() {
+    let obtuse = |name: &str, bits: u32| {
+        let oracle = oracle(name).unwrap();
+        let m = (1i64 << (bits / 2 - 1)) - 1;
+        let point = |[i, j]: [i64; 2]| oracle.decode((i | j << (bits / 2)) as u128);
+        let mut obtuse = 0;
+        for (i, j) in (0..m).flat_map(|i| (0..m - i).map(move |j| (i, j))) {
+            let upright = [[i, j], [i + 1, j], [i, j + 1]];
+            let turned = [[i + 1, j], [i, j + 1], [i + 1, j + 1]];
+            let whole = [true, i + j + 2 <= m];
+            for (corners, _) in [upright, turned].iter().zip(whole).filter(|(_, whole)| *whole) {
+                let corners = corners.map(point);
+                obtuse += usize::from((0..3).any(|at| {
+                    let [a, b, c] = [0, 1, 2].map(|k| corners[(at + k) % 3]);
+                    dot([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k])) < 0.0
+                }));
+            }
+        }
+        obtuse
+    };
+    for bits in [16, 20, 22] {
+        assert_eq!(
+            [obtuse(&format!("oct{bits}"), bits), obtuse(&format!("warpedoct{bits}"), bits)],
+            [0; 2]
+        );
+    }
+    assert!(obtuse("eqareaoct16", 16) > 0);
+}
