@@ -49,8 +49,24 @@ pub(crate) trait Projection: 'static {
     fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3];
     /// The unit vector of a point whose magnitudes add to 1.
     fn direction<L: Lane>(p: [L; 3]) -> [L; 3];
-    /// The lattice point nearest to |v|.
-    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3];
+    /// The lattice point nearest to |v|: of the corners of the triangle around it.
+    #[inline(always)]
+    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+        let v = v.each(|c| c.abs());
+        let (base, step) = triangle_around(Self::project(v, m), m);
+        let mut closest = Closest::to(v);
+        for axis in 0..3 {
+            let mut q = base;
+            q[axis] = q[axis] + step;
+            let decoded = Self::direction(q.each(|c| c * L::splat(1.0 / m as f32)));
+            closest.consider(L::Int::splat(axis as i32), decoded);
+        }
+        let axis = closest.code();
+        [0, 1, 2].each(
+            #[inline(always)]
+            |i: usize| L::select(axis.eq(L::Int::splat(i as i32)), base[i] + step, base[i]),
+        )
+    }
 }
 
 /// Along the rays from the centre.
@@ -138,10 +154,6 @@ impl Projection for Warped {
             |t| Self::warp(t, [Self::K, Self::Q]),
         ))
     }
-    #[inline(always)]
-    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
-        nearest_corner::<Self, L>(v, m)
-    }
 }
 
 impl Projection for EqualArea {
@@ -169,10 +181,6 @@ impl Projection for EqualArea {
             v[1].negate_where_negative(y),
             v[2].negate_where_negative(z),
         ])
-    }
-    #[inline(always)]
-    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
-        nearest_corner::<Self, L>(v, m)
     }
 }
 
@@ -372,25 +380,6 @@ fn triangle_around<L: Lane>(p: [L; 3], m: i32) -> ([L; 3], L) {
     let down = L::splat(1.5).lt(short);
     let base = floor.each(|c| L::select(down, c + one, c));
     (base, max - base[0] - base[1] - base[2])
-}
-
-/// Of the corners of the triangle around |v|, the nearest to it.
-#[inline(always)]
-fn nearest_corner<P: Projection, L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
-    let v = v.each(|c| c.abs());
-    let (base, step) = triangle_around(P::project(v, m), m);
-    let mut closest = Closest::to(v);
-    for axis in 0..3 {
-        let mut q = base;
-        q[axis] = q[axis] + step;
-        let decoded = P::direction(q.each(|c| c * L::splat(1.0 / m as f32)));
-        closest.consider(L::Int::splat(axis as i32), decoded);
-    }
-    let axis = closest.code();
-    [0, 1, 2].each(
-        #[inline(always)]
-        |i: usize| L::select(axis.eq(L::Int::splat(i as i32)), base[i] + step, base[i]),
-    )
 }
 
 /// Of the lattice points i + j + k = m of an octant, the one nearest in angle to `p`, whose
