@@ -65,6 +65,11 @@ pub(crate) trait Projection: 'static {
     fn to_disk<L: Lane>(v: [L; 3], past: bool) -> OnDisk<L>;
     /// x^2 + y^2 may be up to 2.
     fn from_disk<L: Lane>(point: OnDisk<L>) -> [L; 3];
+    /// Of a point of the square whose sides are stretched by `S`.
+    #[inline(always)]
+    fn from_square<S: Stretch, L: Lane>(square: [L::Int; 2], m: i32) -> [L; 3] {
+        Self::from_disk(S::from_square::<L>(square, m))
+    }
     /// Whether (u, v) / m, outside the disk, stands for the same direction as a point inside that of
     /// the other hemisphere; and that point.
     #[inline(always)]
@@ -93,6 +98,13 @@ pub(crate) trait Stretch: 'static {
     fn to_square<L: Lane>(point: OnDisk<L>) -> [L; 2];
     /// Of integers from -m to m. Exact where d or e is zero.
     fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L>;
+    /// The same with x and y times sqrt(e).
+    #[inline(always)]
+    fn from_square_by_root_e<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
+        let OnDisk { x, y, d, e } = Self::from_square(square, m);
+        let k = sqrt(e);
+        OnDisk { x: x * k, y: y * k, d, e }
+    }
 }
 
 #[inline(always)]
@@ -146,6 +158,14 @@ impl Projection for EqArea {
     fn from_disk<L: Lane>(OnDisk { x, y, d, e }: OnDisk<L>) -> [L; 3] {
         let k = sqrt(e);
         normalize([x * k, y * k, d])
+    }
+    #[inline(always)]
+    fn from_square<S: Stretch, L: Lane>(square: [L::Int; 2], m: i32) -> [L; 3] {
+        let OnDisk { x, y, d, .. } = S::from_square_by_root_e::<L>(square, m);
+        // Its length is 1 up to the rounding of the roots.
+        let v = [x, y, d];
+        let r = L::splat(1.5) - L::splat(0.5) * length_squared(v);
+        v.each(|c| c * r)
     }
 }
 
@@ -268,16 +288,30 @@ impl Stretch for Ellipse {
     }
     #[inline(always)]
     fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
-        let half = L::splat(0.5);
+        Self::from_square_by(square, m, |_| L::splat(0.5))
+    }
+    #[inline(always)]
+    fn from_square_by_root_e<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
+        Self::from_square_by(square, m, |e| e * L::splat(0.5))
+    }
+}
+
+impl Ellipse {
+    /// With x and y times the root of twice `factor` of e.
+    #[inline(always)]
+    fn from_square_by<L: Lane>(square: [L::Int; 2], m: i32, factor: impl Fn(L) -> L) -> OnDisk<L> {
+        let one = L::splat(1.0);
         let [du, dv] = square.each(|i| one_minus_square::<L>(i, m));
         let [u, v] = scaled::<L>(square, m);
+        let d = du * dv;
+        let e = one + d;
+        let factor = factor(e);
         // 1 - v^2 / 2 = (1 + (1 - v^2)) / 2.
         let side = inlined(
             #[inline(always)]
-            |c: L, other: L| c * sqrt((L::splat(1.0) + other) * half),
+            |c: L, other: L| c * sqrt((one + other) * factor),
         );
-        let d = du * dv;
-        OnDisk { x: side(u, dv), y: side(v, du), d, e: L::splat(1.0) + d }
+        OnDisk { x: side(u, dv), y: side(v, du), d, e }
     }
 }
 
@@ -378,7 +412,7 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
     #[inline(always)]
     fn vector<L: Lane>(point: &Point<L>, m: i32) -> [L; 3] {
         let u = point.column + point.column - L::Int::splat(m);
-        let [x, y, z] = P::from_disk(S::from_square::<L>([u, point.row], m));
+        let [x, y, z] = P::from_square::<S, L>([u, point.row], m);
         [x, y, L::select(point.lower, -z, z)]
     }
 
