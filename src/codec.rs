@@ -8,6 +8,8 @@ use crate::formula::{Behind, Formula};
 mod cartesian;
 mod cube;
 mod disk;
+mod fibonacci;
+mod front_oct;
 mod hemi_oct;
 mod icosphere;
 mod latlong;
@@ -16,6 +18,8 @@ mod octant;
 mod phi_z;
 mod spherical;
 mod xy_only;
+
+pub use fibonacci::SphericalFibonacci;
 
 /// A representation of unit vectors: what a bit pattern means, and how to get there.
 ///
@@ -292,6 +296,17 @@ codecs! {
         SixOct24: [u8; 3] = "sixoct24", 24 bits, 0.05972 / 0.03981 degrees, oct::Oct<oct::Central, 24, 6>;
         SixOct32: u32 = "sixoct32", 32 bits, 0.003742 / 0.002489 degrees, oct::Oct<oct::Central, 32, 6>;
     }
+    "Octahedral with more precision towards +Z, as for normals that mostly face the viewer: cells are half as wide as [`Oct16`]'s at \
+     +Z and twice as wide at -Z. Two snorm [parameters](Codec#bit-layout). Of the axes, +-Z survive exactly; at 32 bits all." {
+        FrontOct16: u16 = "frontoct16", 16 bits, 1.341 / 0.9276 degrees, front_oct::FrontOct<16, 2>;
+        FrontOct24: [u8; 3] = "frontoct24", 24 bits, 0.08320 / 0.05754 degrees, front_oct::FrontOct<24, 2>;
+        FrontOct32: u32 = "frontoct32", 32 bits, 0.005219 / 0.003595 degrees, front_oct::FrontOct<32, 2>;
+    }
+    "As [`FrontOct16`], but a quarter as wide at +Z and four times as wide at -Z. Two snorm \
+     [parameters](Codec#bit-layout). Of the axes, +-Z survive exactly; at 24 bits all." {
+        QuadFrontOct16: u16 = "quadfrontoct16", 16 bits, 1.814 / 1.447 degrees, front_oct::FrontOct<16, 4>;
+        QuadFrontOct24: [u8; 3] = "quadfrontoct24", 24 bits, 0.1126 / 0.08962 degrees, front_oct::FrontOct<24, 4>;
+    }
     "Cartesian: the three components, x in the low bits, as many bits each as the name says; decoding divides by the length. Snorm \
      -M-1 reads as -M, infinite and NaN halves as 65504, (0, 0, 0) as +Z. Of the patterns of one direction the one whose length \
      is nearest to 1 is canonical; snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction. All six \
@@ -320,6 +335,13 @@ codecs! {
         HemiOct16: u16 = "HemiOct16", 16 bits, 0.5548 / 0.5548 degrees, hemi_oct::HemiOct<16>;
         HemiOct24: [u8; 3] = "HemiOct24", 24 bits, 0.03443 / 0.03442 degrees, hemi_oct::HemiOct<24>;
         HemiOct32: u32 = "HemiOct32", 32 bits, 0.002163 / 0.002151 degrees, hemi_oct::HemiOct<32>;
+    }
+    "Signed oct: two snorm [parameters](Codec#bit-layout) as [`HemiOct16`] has them, and above them a bit that is set where z < 0. For \
+     odd budgets: 10 + 10 + 1 bits leave 11 of a word. All six axes survive exactly." {
+        SignedOct17: u32 = "signedoct17", 17 bits, 0.5554 / 0.5554 degrees, hemi_oct::SignedOct<16>;
+        SignedOct21: u32 = "signedoct21", 21 bits, 0.1381 / 0.1381 degrees, hemi_oct::SignedOct<20>;
+        SignedOct23: [u8; 3] = "signedoct23", 23 bits, 0.06895 / 0.06895 degrees, hemi_oct::SignedOct<22>;
+        SignedOct31: u32 = "signedoct31", 31 bits, 0.004319 / 0.004307 degrees, hemi_oct::SignedOct<30>;
     }
     "XY-only: the +Z hemisphere, x and y as two unorm [parameters](Codec#bit-layout), (c + 1) / 2. \
      Beyond the rim, the smaller component is kept, but no more than the first grid value from sqrt(1/2); the larger one is put on the \
@@ -420,6 +442,11 @@ codecs! {
         LatLong16D: u16 = "latlong16D", 16 bits, 0.5647 / 0.5645 degrees, latlong::LatLong<latlong::Spaced<16>>;
         LatLong24D: [u8; 3] = "latlong24D", 24 bits, 0.03524 / 0.03522 degrees, latlong::LatLong<latlong::Spaced<24>>;
         LatLong32D: u32 = "latlong32D", 32 bits, 0.002228 / 0.002205 degrees, latlong::LatLong<latlong::Spaced<32>>;
+    }
+    "[Spherical Fibonacci](SphericalFibonacci): 2^bits points of about the same area on a spiral from +Z to -Z. The code is the \
+     index. No axis survives exactly." {
+        Fibonacci16: u16 = "fibonacci16", 16 bits, 0.6137 / 0.6137 degrees, fibonacci::Fibonacci<16>;
+        Fibonacci24: [u8; 3] = "fibonacci24", 24 bits, 0.03836 / 0.03836 degrees, fibonacci::Fibonacci<24>;
     }
     "Cube map: 3 bits of face, 2 axis + sign, and two snorm parameters, next / |axis| and next but one / |axis|. The highest \
      bit is unused. All six axes survive exactly." {

@@ -229,7 +229,7 @@ impl<'a, C: SignSymmetric> OctantTable<'a, C> {
 /// four.
 ///
 /// Of the formats of at most 16 bits, spherical16 is so only up to rounding; latlong16, latlong16D,
-/// phi-z-unorm8x2 and oct-unorm8x2 have other points in other octants; icosphere162 is decoded by a
+/// phi-z-unorm8x2, oct-unorm8x2, frontoct16, quadfrontoct16 and fibonacci16 have other points in other octants; icosphere162 is decoded by a
 /// table already.
 pub trait SignSymmetric: Codec + sealed::Sealed {
     /// How many points the codec has in one octant.

@@ -9,14 +9,17 @@ const ALL: &[&str] = &["+X", "-X", "+Y", "-Y", "+Z", "-Z"];
 fn exact_axes(name: &str, precise: bool) -> &'static [&'static str] {
     let family = name.trim_end_matches(|c: char| c.is_ascii_digit());
     match family {
-        "oct" | "warpedoct" | "eqareaoct" | "sixoct" | "cube" | "warpedcube" | "octant"
-        | "icosphere" => ALL,
+        "oct" | "warpedoct" | "eqareaoct" | "sixoct" | "signedoct" | "cube" | "warpedcube"
+        | "octant" | "icosphere" => ALL,
         "spherical" => &["+X", "-X", "+Z", "-Z"],
         "HemiOct" | "XYOnly32F" => &["+X", "-X", "+Y", "-Y", "+Z"],
+        // Their steps are a multiple of 7 and of 23, so that the other axes are points too.
+        _ if name == "frontoct32" || name == "quadfrontoct24" => ALL,
+        "frontoct" | "quadfrontoct" => &["+Z", "-Z"],
         "latlong" => &["+X", "+Z", "-Z"],
         // An odd number of points on the equator.
         _ if name == "latlong32D" => &["+X", "+Z", "-Z"],
-        "XYOnly" | "xyz-unorm8x" | "xyz-unorm16x" | "CrytekBFN" => &[],
+        "XYOnly" | "xyz-unorm8x" | "xyz-unorm16x" | "CrytekBFN" | "fibonacci" => &[],
         // A corner of the square.
         "oct-unorm8x" | "oct-unorm16x" => &["-Z"],
         // The poles are the corners of the square too, and exact there.

@@ -184,7 +184,7 @@ macro_rules! each_of_16_bits_at_most {
             EqAreaEllipse16 EqDist16 EqDistConcentric16 EqDistEllipse16
             AngularCube4 AngularCube5 AngularCube6 AngularCube7 AngularCube8 AngularCube9
             AngularCube10 AngularCube11 AngularCube12 AngularCube13 AngularCube14 AngularCube15
-            AngularCube16 Icosphere162)
+            AngularCube16 FrontOct16 QuadFrontOct16 Fibonacci16 Icosphere162)
     };
 }
 
@@ -213,6 +213,9 @@ fn octants_decode_the_same() {
         "phi-z-unorm8x2",
         "latlong16",
         "latlong16D",
+        "frontoct16",
+        "quadfrontoct16",
+        "fibonacci16",
         // Decoding is a table already.
         "icosphere162",
     ];

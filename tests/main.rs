@@ -7,6 +7,7 @@ mod axes;
 mod decode_table;
 mod error_report;
 mod exhaustive;
+mod fibonacci;
 mod golden;
 mod large;
 mod low_dimensions;

@@ -6,7 +6,7 @@ use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
-use unitpack::{CodeInt, Format, LengthMismatch, Oct8};
+use unitpack::{CodeInt, Format, LengthMismatch, Oct8, Soa, SoaMut, SphericalFibonacci};
 use unitpack_fuzz::common::last_pattern;
 use unitpack_fuzz::{AnyCodec, Arrays, Bytes, Outcome, Transcode, UNWRITTEN};
 
@@ -23,6 +23,7 @@ fuzz_target!(|data: &[u8]| {
     packed(lengths);
     tables(codec.format, lengths);
     low_dimensions(lengths);
+    fibonacci(lengths);
 });
 
 /// The error that lengths call for, if any, and the numbers that its message must give in this order.
@@ -195,6 +196,21 @@ fn tables(format: Format, lengths: [usize; 4]) {
     check("an octant", arrays, soa, |v| octant.decode_soa(&vec![1; codes], v.write()));
     check("a table", structures.clone(), aos, |v| whole.decode_aos(&vec![1; y], v));
     check("an octant", structures, aos, |v| octant.decode_aos(&vec![1; y], v));
+}
+
+fn fibonacci([x, y, z, codes]: [usize; 4]) {
+    let points = SphericalFibonacci::new(1 + x as u32).unwrap();
+    let error = LengthMismatch::Soa { x, y, z, codes };
+    let lengths = [x, y, z, codes];
+    let mismatch = unless(lengths.iter().all(|&length| length == x), error, &lengths);
+    let [from_x, from_y, from_z] = [x, y, z].map(|length| vec![0.5; length]);
+    check("points", vec![u32::MAX; codes], mismatch, |to| {
+        points.encode_soa(Soa { x: &from_x, y: &from_y, z: &from_z }, to)
+    });
+    let unwritten = [x, y, z].map(|length| vec![UNWRITTEN; length]);
+    check("points", unwritten, mismatch, |[x, y, z]| {
+        points.decode_soa(&vec![0; codes], SoaMut { x, y, z })
+    });
 }
 
 fn low_dimensions(lengths: [usize; 4]) {

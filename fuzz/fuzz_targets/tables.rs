@@ -56,7 +56,7 @@ macro_rules! entries {
     };
 }
 
-static ENTRIES: [Entry; 78] = entries! {
+static ENTRIES: [Entry; 81] = entries! {
     octant: Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
         Stereo16 StereoConcentric16 StereoEllipse16
         EqArea16 EqAreaConcentric16 EqAreaEllipse16
@@ -71,7 +71,8 @@ static ENTRIES: [Entry; 78] = entries! {
         AngularCube4 AngularCube5 AngularCube6 AngularCube7 AngularCube8 AngularCube9
         AngularCube10 AngularCube11 AngularCube12 AngularCube13 AngularCube14 AngularCube15
         AngularCube16
-        Spherical16 LatLong16 LatLong16D PhiZUnorm8x2 OctUnorm8x2 Icosphere162;
+        Spherical16 LatLong16 LatLong16D PhiZUnorm8x2 OctUnorm8x2 FrontOct16
+        QuadFrontOct16 Fibonacci16 Icosphere162;
 };
 
 /// The run-time table of a format, filled when first asked for.

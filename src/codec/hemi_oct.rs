@@ -1,16 +1,20 @@
 //! Hemi-oct: the +Z hemisphere projected onto half an octahedron, turned by 45 degrees so that it
-//! fills the square.
+//! fills the square. Signed oct: the same for both hemispheres, and a bit that says which.
 //!
 //! ```text
-//! encode   p = (x, y) / (|x| + |y| + z);  code = snorm(p.x + p.y), snorm(p.x - p.y)
-//! decode   p = ((u + w) / 2, (u - w) / 2, 1 - max(|u|, |w|));  v = p / |p|
+//! encode   p = (x, y) / (|x| + |y| + |z|);  code = snorm(p.x + p.y), snorm(p.x - p.y), z < 0
+//! decode   p = ((u + w) / 2, (u - w) / 2, 1 - max(|u|, |w|));  v = p / |p|, z negated where the bit is set
 //! ```
 //!
-//! Canonical: every direction has one pattern, but for -M-1, which reads as -M. Survive exactly:
-//! +Z, +-X and +-Y.
+//! The nearest point of signed oct is on the own side of the equator: its mirror image is farther.
+//!
+//! Canonical: every direction has one pattern, but for -M-1, which reads as -M, and for points of
+//! signed oct's equator, |u| = M or |w| = M, which count as upper. Survive exactly: +Z, +-X and +-Y,
+//! and in signed oct -Z.
 //!
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
-//! 2014.
+//! 2014; signed oct: White, "Signed Octahedron Normal Encoding", 2017, whose parameters are unorm,
+//! so that it has no +-Z.
 
 use crate::formula::{Formula, One, Symmetric, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt};
@@ -60,6 +64,47 @@ impl<const BITS: u32> Formula for HemiOct<BITS> {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         pack_snorm2::<BITS, L>(unpack_snorm2::<BITS, L>(code))
+    }
+}
+
+/// Hemi-oct in `PAIR` bits, and the sign of z above them.
+pub(crate) struct SignedOct<const PAIR: u32>;
+
+impl<const PAIR: u32> SignedOct<PAIR> {
+    /// The code of a point of the upper hemisphere or, off the equator, of its mirror image.
+    #[inline(always)]
+    fn signed<L: Lane>(code: L::Int, lower: L::Mask) -> L::Int {
+        let max = L::Int::splat(HemiOct::<PAIR>::M);
+        let [u, w] = unpack_snorm2::<PAIR, L>(code);
+        let lower = lower & u.abs().max(w.abs()).lt(max);
+        code | L::Int::select(lower, L::Int::splat(1 << PAIR), L::Int::splat(0))
+    }
+}
+
+impl<const PAIR: u32> Formula for SignedOct<PAIR> {
+    type Words = One;
+
+    #[inline(always)]
+    fn encode<L: Lane>([x, y, z]: [L; 3]) -> L::Int {
+        Self::signed::<L>(HemiOct::<PAIR>::encode([x, y, z.abs()]), z.lt(L::zero()))
+    }
+
+    #[inline(always)]
+    fn encode_precise<L: Lane>([x, y, z]: [L; 3]) -> L::Int {
+        Self::signed::<L>(HemiOct::<PAIR>::encode_precise([x, y, z.abs()]), z.lt(L::zero()))
+    }
+
+    #[inline(always)]
+    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+        let [x, y, z] = HemiOct::<PAIR>::decode::<L>(code);
+        let lower = L::Int::splat(0).lt(code.shr(PAIR).low(1)) & L::zero().lt(z);
+        [x, y, L::select(lower, -z, z)]
+    }
+
+    #[inline(always)]
+    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+        let lower = L::Int::splat(0).lt(code.shr(PAIR).low(1));
+        Self::signed::<L>(HemiOct::<PAIR>::canonical::<L>(code), lower)
     }
 }
 

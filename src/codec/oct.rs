@@ -197,6 +197,23 @@ impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Oct<P, BITS, MULTIPLE>
         params.each(|p| p.max(-max).min(max))
     }
 
+    /// The lattice point, whose magnitudes add to `M`.
+    #[inline(always)]
+    pub(crate) fn point<L: Lane>(code: L::Int) -> [L::Int; 3] {
+        unfold::<L>(Self::unpack::<L>(code), Self::M)
+    }
+
+    /// Of the point whose magnitudes are `x`, `y` and what is left of `m`, rounded, in the octant of `v`.
+    #[inline(always)]
+    pub(crate) fn code_of<L: Lane>([x, y]: [L; 2], v: [L; 3]) -> L::Int {
+        let max = L::splat(Self::M as f32);
+        // Fold the lower half over the diagonals.
+        let lower = v[2].lt(L::zero());
+        let u = L::select(lower, max - y, x).round_int();
+        let w = L::select(lower, max - x, y).round_int();
+        Self::finish([u, w], v)
+    }
+
     /// Gives the magnitudes `u`, `w` the signs of `x`, `y`, but where a sign says nothing, plus.
     #[inline(always)]
     fn finish<L: Lane>([u, w]: [L::Int; 2], [x, y, _]: [L; 3]) -> L::Int {
@@ -215,27 +232,18 @@ impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Formula for Oct<P, BIT
     #[inline(always)]
     fn encode<L: Lane>(v: [L; 3]) -> L::Int {
         let [x, y, _] = P::project(v, Self::M);
-        let max = L::splat(Self::M as f32);
-        // Fold the lower half over the diagonals.
-        let lower = v[2].lt(L::zero());
-        let u = L::select(lower, max - y, x).round_int();
-        let w = L::select(lower, max - x, y).round_int();
-        Self::finish([u, w], v)
+        Self::code_of([x, y], v)
     }
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        let max = L::splat(Self::M as f32);
         let [i, j, _] = P::nearest(v, Self::M);
-        let lower = v[2].lt(L::zero());
-        let u = L::select(lower, max - j, i).round_int();
-        let w = L::select(lower, max - i, j).round_int();
-        Self::finish([u, w], v)
+        Self::code_of([i, j], v)
     }
 
     #[inline(always)]
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        P::direction(unfold::<L>(Self::unpack::<L>(code), Self::M))
+        P::direction(scaled(Self::point::<L>(code), Self::M))
     }
 
     #[inline(always)]
@@ -272,9 +280,18 @@ pub(crate) fn triangle_index<L: Lane>(i: L::Int, j: L::Int) -> L::Int {
     (n * (n + L::Int::splat(1))).shr(1) + j
 }
 
-/// The point of the octahedron, whose magnitudes add to 1, of one of the square from -m to m.
+/// The point of the octahedron, whose magnitudes add to 1, of a lattice point.
 #[inline(always)]
-fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
+fn scaled<L: Lane>(p: [L::Int; 3], m: i32) -> [L; 3] {
+    p.each(
+        #[inline(always)]
+        |c| L::from_int(c) * L::splat(1.0 / m as f32),
+    )
+}
+
+/// The lattice point, whose magnitudes add to m, of one of the square from -m to m.
+#[inline(always)]
+fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 3] {
     let (max, zero) = (L::Int::splat(m), L::Int::splat(0));
     let (i, j) = (u.abs(), w.abs());
     let (left_i, left_j) = (max - j, max - i);
@@ -283,8 +300,7 @@ fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L; 3] {
         |magnitude: L::Int, sign: L::Int| L::Int::select(sign.lt(zero), -magnitude, magnitude),
     );
     // Below the diagonals, where more is left over than is there, fold back.
-    let p = [copy_sign(i.min(left_i), u), copy_sign(j.min(left_j), w), left_i - i];
-    p.each(|c| L::from_int(c) * L::splat(1.0 / m as f32))
+    [copy_sign(i.min(left_i), u), copy_sign(j.min(left_j), w), left_i - i]
 }
 
 /// The canonical one of a point of the square from -m to m and its mirror image on the border.
@@ -347,7 +363,8 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
             #[inline(always)]
             |indices| {
                 let point = Self::canonical_point::<L>(indices);
-                (Self::pack::<L>(point), Central::direction(unfold::<L>(point, Self::M)))
+                let p = scaled(unfold::<L>(point, Self::M), Self::M);
+                (Self::pack::<L>(point), Central::direction(p))
             },
         )
     }
@@ -356,7 +373,7 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
     fn decode<L: Lane>(code: L::Int) -> [L; 3] {
         let max = L::Int::splat(Self::M);
         let point = unpack2::<BITS, L>(code).each(|i| i + i - max);
-        Central::direction(unfold::<L>(point, Self::M))
+        Central::direction(scaled(unfold::<L>(point, Self::M), Self::M))
     }
 
     #[inline(always)]
@@ -368,7 +385,7 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
 /// The triangle of the lattice i + j + k = m that `p` lies in, whose components are >= 0 and add to m:
 /// a point, and what has to be added to one component or another for its corners.
 #[inline(always)]
-fn triangle_around<L: Lane>(p: [L; 3], m: i32) -> ([L; 3], L) {
+pub(crate) fn triangle_around<L: Lane>(p: [L; 3], m: i32) -> ([L; 3], L) {
     let max = L::splat(m as f32);
     let one = L::splat(1.0);
     let floor = p.each(

@@ -189,6 +189,10 @@ pub fn oracle(name: &str) -> Option<Oracle> {
         ("warpedoct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm), &Warped))),
         ("eqareaoct", 1..) => (size, Box::new(Oct(pair(Kind::Snorm), &EqualArea))),
         ("sixoct", 1..) => (size, Box::new(Oct(pair(Kind::Sixes), &Central))),
+        ("frontoct", 1..) => (size, Box::new(FrontOct(Oct(pair(Kind::Snorm), &Central), 2.0))),
+        ("quadfrontoct", 1..) => (size, Box::new(FrontOct(Oct(pair(Kind::Snorm), &Central), 4.0))),
+        ("signedoct", 1..) => (size, Box::new(SignedOct(HemiOct(pair(Kind::Snorm))))),
+        ("fibonacci", 1..) => (size, Box::new(Fibonacci { points: 1 << size })),
         ("spherical", 1..) => (size, Box::new(Spherical::new(pair(Kind::Snorm)))),
         ("HemiOct", 1..) => (size, Box::new(HemiOct(pair(Kind::Snorm)))),
         ("XYOnly", 1..) => (size, Box::new(XyOnly(Component::Unorm(pair(Kind::Unorm))))),
@@ -489,6 +493,158 @@ impl Representation for HemiOct {
     }
     fn is_hemisphere(&self) -> bool {
         true
+    }
+}
+
+/// Hemi-oct of either hemisphere, and a third parameter that is 1 in the lower one.
+struct SignedOct(HemiOct);
+
+impl Representation for SignedOct {
+    fn params(&self, [x, y, z]: [f64; 3]) -> Params<f64> {
+        let [u, w, _] = self.0.params([x, y, z.abs()]);
+        [u, w, f64::from(z < 0.0)]
+    }
+    fn params_error(&self) -> f64 {
+        self.0.params_error()
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        let [u, w, _] = self.0.range();
+        [u, w, (0, 1)]
+    }
+    fn vector(&self, [u, w, lower]: Params<i64>) -> [f64; 3] {
+        let [x, y, z] = self.0.vector([u, w, 0]);
+        [x, y, if lower == 1 { -z } else { z }]
+    }
+    fn pack(&self, [u, w, lower]: Params<i64>) -> u128 {
+        self.0.pack([u, w, 0]) | (lower as u128) << (2 * self.0.0.bits)
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let [u, w, _] = self.0.unpack(code);
+        [u, w, unsigned_field(code, 2 * self.0.0.bits, 1)]
+    }
+    /// The equator belongs to the upper hemisphere.
+    fn canonical(&self, [u, w, lower]: Params<i64>) -> Params<i64> {
+        let equator = u.abs().max(w.abs()) == self.0.0.steps();
+        [u, w, if equator { 0 } else { lower }]
+    }
+}
+
+/// Oct of the direction that a scaling of the stereographic plane leads to.
+struct FrontOct(Oct, f64);
+
+impl FrontOct {
+    /// The direction whose stereographic projection from -Z is `scale` times that of `v`.
+    fn scaled([x, y, z]: [f64; 3], scale: f64) -> [f64; 3] {
+        // From the farther pole; the projections from both are each other's inverse.
+        let (pole, scale) = if z < 0.0 { (-1.0, 1.0 / scale) } else { (1.0, scale) };
+        let [a, b] = [x, y].map(|c| c / (1.0 + z.abs()) * scale);
+        let square = a * a + b * b;
+        normalize([2.0 * a, 2.0 * b, pole * (1.0 - square)])
+    }
+}
+
+impl Representation for FrontOct {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        self.0.params(Self::scaled(v, self.1))
+    }
+    fn params_error(&self) -> f64 {
+        self.0.params_error() * self.1
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        self.0.range()
+    }
+    fn vector(&self, params: Params<i64>) -> [f64; 3] {
+        Self::scaled(self.0.vector(params), 1.0 / self.1)
+    }
+    fn pack(&self, params: Params<i64>) -> u128 {
+        self.0.pack(params)
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        self.0.unpack(code)
+    }
+    fn canonical(&self, params: Params<i64>) -> Params<i64> {
+        self.0.canonical(params)
+    }
+}
+
+/// The nearest point is looked for in a lattice basis that Gauss's reduction finds.
+struct Fibonacci {
+    points: i64,
+}
+
+impl Fibonacci {
+    fn turns(i: i64) -> f64 {
+        f64::from((i as u32).wrapping_mul(0x9E37_79B9)) / 2f64.powi(32)
+    }
+
+    fn near(&self, v: [f64; 3]) -> Vec<i64> {
+        let n = self.points as f64;
+        let height = n * (1.0 - v[2]) / 2.0 - 0.5;
+        let start = height.round() as i64;
+        let turns = v[1].atan2(v[0]) / TAU - Self::turns(start);
+        let target = [height - start as f64, turns - turns.round()];
+        // Steps in index and turns, as lengths on the sphere.
+        let r = v[0].hypot(v[1]).max(2.0 / n.sqrt());
+        let dot = |a: [f64; 2], b: [f64; 2]| {
+            a[0] * b[0] * (2.0 / (n * r)).powi(2) + a[1] * b[1] * (TAU * r).powi(2)
+        };
+        let (mut a, mut b) = ([1.0, Self::turns(1)], [0.0, 1.0]);
+        loop {
+            let times = (dot(a, b) / dot(a, a)).round();
+            b = [b[0] - times * a[0], b[1] - times * a[1]];
+            if dot(b, b) >= dot(a, a) {
+                break;
+            }
+            (a, b) = (b, a);
+        }
+        let area = a[0] * b[1] - a[1] * b[0];
+        let of_a = ((target[0] * b[1] - target[1] * b[0]) / area).round();
+        let of_b = ((a[0] * target[1] - a[1] * target[0]) / area).round();
+        let steps = |middle: f64| (-3..=3).map(move |step| middle + f64::from(step));
+        let lattice =
+            steps(of_a).flat_map(|s| steps(of_b).map(move |t| (s * a[0] + t * b[0]) as i64));
+        // Around the poles there is no lattice.
+        let last = self.points - 1;
+        let poles = (0..16).flat_map(|i| [i, last - i]);
+        let all = lattice.map(|i| start + i).chain(poles.filter(|_| r < 16.0 / n.sqrt()));
+        all.filter(|i| (0..=last).contains(i)).collect()
+    }
+}
+
+impl Representation for Fibonacci {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        let distance = |&i: &i64| chord_squared(v, self.vector([i, 0, 0]));
+        let near = self.near(v);
+        let nearest = near.iter().min_by(|i, j| distance(i).total_cmp(&distance(j))).unwrap();
+        [*nearest as f64, 0.0, 0.0]
+    }
+    fn params_error(&self) -> f64 {
+        0.0
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        [(0, self.points - 1), (0, 0), (0, 0)]
+    }
+    fn vector(&self, [i, _, _]: Params<i64>) -> [f64; 3] {
+        let z = 1.0 - (2 * i + 1) as f64 / self.points as f64;
+        let r = ((1.0 - z) * (1.0 + z)).sqrt();
+        let (sin, cos) = (TAU * Self::turns(i)).sin_cos();
+        [r * cos, r * sin, z]
+    }
+    fn pack(&self, [i, _, _]: Params<i64>) -> u128 {
+        i as u128
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        [(code & (self.points - 1) as u128) as i64, 0, 0]
+    }
+    fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
+        let distance = |i: i64| chord_squared(v, self.vector([i, 0, 0])).sqrt();
+        let near = self.near(v);
+        let least = near.iter().map(|&i| distance(i)).fold(2.0, f64::min);
+        let close = near.into_iter().filter(|&i| distance(i) < least + 5e-7);
+        close.map(|i| [i, 0, 0]).collect()
+    }
+    fn nearby(&self, v: [f64; 3], _: f64) -> Vec<Params<i64>> {
+        self.near(v).into_iter().map(|i| [i, 0, 0]).collect()
     }
 }
 

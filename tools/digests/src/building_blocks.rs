@@ -10,7 +10,10 @@ use unitpack::packing::{
     unpack_snorm12x2_slice,
 };
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
-use unitpack::{AngularCube16, CodeInt, HemiOct16, Oct8, SoaMut, WarpedCube16, XyOnly16};
+use unitpack::{
+    AngularCube16, CodeInt, HemiOct16, Oct8, Soa, SoaMut, SphericalFibonacci, WarpedCube16,
+    XyOnly16,
+};
 
 use crate::LEN;
 use crate::digest::Digest;
@@ -34,6 +37,9 @@ pub fn report() {
     let mut row = Row::new();
     row.angle::<1>().angle::<2>().angle::<8>().angle::<13>().angle::<24>();
     row.print("angle");
+    let mut row = Row::new();
+    row.fibonacci(1).fibonacci(21).fibonacci(1000).fibonacci(1 << 20).fibonacci(1 << 24);
+    row.print("fibonacci");
     let mut row = Row::new();
     row.snorm12x2();
     row.print("snorm12x2");
@@ -101,6 +107,25 @@ impl Row {
         self.decode.floats(&x);
         self.decode.floats(&y);
         self.decode.floats(codes.map(Angle::<BITS>::decode).as_flattened());
+        self
+    }
+
+    fn fibonacci(&mut self, points: u32) -> &mut Self {
+        let points = SphericalFibonacci::new(points).expect("a number in range");
+        let [x, y, z] = [(); 3].map(|()| self.numbers());
+        let mut indices = [0; LEN];
+        points.encode_soa(Soa { x: &x, y: &y, z: &z }, &mut indices).expect("lengths that fit");
+        self.encode.words(indices);
+        self.encode.words(array::from_fn::<_, LEN, _>(|i| points.encode([x[i], y[i], z[i]])));
+
+        let indices = self.words().map(|bits| bits % (points.points() + 1));
+        let [mut x, mut y, mut z] = [[0.0; LEN]; 3];
+        let v = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+        points.decode_soa(&indices, v).expect("lengths that fit");
+        for component in [&x, &y, &z] {
+            self.decode.floats(component);
+        }
+        self.decode.floats(indices.map(|i| points.decode(i)).as_flattened());
         self
     }
 

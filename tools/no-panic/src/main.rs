@@ -278,7 +278,8 @@ fn decode_tables() {
     );
     // The others of at most 16 bits.
     codecs!(table_of_codec(vectors):
-        Spherical16 LatLong16 LatLong16D PhiZUnorm8x2 OctUnorm8x2 Icosphere162
+        Spherical16 LatLong16 LatLong16D PhiZUnorm8x2 OctUnorm8x2 FrontOct16 QuadFrontOct16 Fibonacci16
+        Icosphere162
     );
 }
 
@@ -302,6 +303,16 @@ fn low_dimensions() {
     let (x, bytes) = (opaque(&mut x), opaque(&mut bytes));
     black_box(Sign::encode_slice(x, bytes).is_ok());
     black_box(Sign::decode_slice(bytes, x).is_ok());
+}
+
+fn fibonacci() {
+    let Some(points) = SphericalFibonacci::new(black_box(1000)) else { return };
+    black_box(points.points());
+    black_box(points.decode(points.encode(black_box([0.0, 0.6, 0.8]))));
+    let (mut buffers, mut indices) = (Buffers::new(), [0; LEN]);
+    let indices = opaque(&mut indices);
+    black_box(points.encode_soa(buffers.read(), indices).is_ok());
+    black_box(points.decode_soa(indices, buffers.write()).is_ok());
 }
 
 struct Buffers([[f32; LEN]; 3]);
@@ -338,6 +349,7 @@ fn all() {
     all_dense();
     decode_tables();
     low_dimensions();
+    fibonacci();
 }
 
 #[unsafe(no_mangle)]
