@@ -260,7 +260,7 @@ pub(crate) fn run_one<K: Kernel<A, B>, A: Copy + 'static, B: Pod>(from: A) -> B 
 
 /// A few vectors on the stack, between a layout of the caller's and the loops over structures of
 /// arrays.
-struct Stage {
+pub(crate) struct Stage {
     x: [f32; STAGE],
     y: [f32; STAGE],
     z: [f32; STAGE],
@@ -268,18 +268,18 @@ struct Stage {
 
 impl Stage {
     #[inline(always)]
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Stage { x: [0.0; STAGE], y: [0.0; STAGE], z: [0.0; STAGE] }
     }
 
     #[inline(always)]
-    fn read(&self, len: usize) -> Soa<'_> {
+    pub(crate) fn read(&self, len: usize) -> Soa<'_> {
         let len = len.min(STAGE);
         Soa { x: &self.x[..len], y: &self.y[..len], z: &self.z[..len] }
     }
 
     #[inline(always)]
-    fn write(&mut self, len: usize) -> SoaMut<'_> {
+    pub(crate) fn write(&mut self, len: usize) -> SoaMut<'_> {
         let len = len.min(STAGE);
         SoaMut { x: &mut self.x[..len], y: &mut self.y[..len], z: &mut self.z[..len] }
     }

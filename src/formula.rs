@@ -51,6 +51,12 @@ pub(crate) trait Symmetric: Formula<Words = One> {
     fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]);
 }
 
+/// A formula whose points form a lattice of triangles with straight edges.
+pub(crate) trait Lattice: Formula<Words = One> {
+    /// One of the points around `v`, so that the mean over all `t` from 0 to 1 has the direction of `v`.
+    fn encode_one_of<L: Lane>(v: [L; 3], t: L) -> L::Int;
+}
+
 /// The formula behind a codec.
 pub(crate) trait Behind: crate::Codec {
     type Formula: Formula;

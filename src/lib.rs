@@ -11,6 +11,7 @@ mod code_int;
 mod codec;
 pub mod decode_table;
 mod dispatch;
+pub mod dither;
 mod error;
 mod error_report;
 mod format;

@@ -5,6 +5,7 @@ mod common;
 mod agree;
 mod axes;
 mod decode_table;
+mod dither;
 mod error_report;
 mod exhaustive;
 mod fibonacci;

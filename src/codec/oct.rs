@@ -35,7 +35,7 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Closest, Formula, One, Symmetric, closest_of_four};
+use crate::formula::{Closest, Formula, Lattice, One, Symmetric, closest_of_four};
 use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::layout::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
 use crate::math;
@@ -250,6 +250,29 @@ impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Formula for Oct<P, BIT
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         let point = plus_on_border::<L>(Self::unpack::<L>(code), Self::M);
         pack_snorm2::<BITS, L>(point)
+    }
+}
+
+impl<const BITS: u32, const MULTIPLE: i32> Lattice for Oct<Central, BITS, MULTIPLE> {
+    #[inline(always)]
+    fn encode_one_of<L: Lane>(v: [L; 3], t: L) -> L::Int {
+        let p = Central::project(v, Self::M);
+        let (base, step) = triangle_around(p, Self::M);
+        // Of the corner whose coordinate `axis` is a step off, the part that it has in p, times its length,
+        // which decoding divides by.
+        let [a, b, c] = [0, 1, 2].each(
+            #[inline(always)]
+            |axis: usize| {
+                let mut corner = base;
+                corner[axis] = corner[axis] + step;
+                (p[axis] - base[axis]) * step * math::sqrt(math::length_squared(corner))
+            },
+        );
+        let t = t * (a + b + c);
+        let (first, second) = (t.lt(a), t.lt(a + b));
+        let zero = L::zero();
+        let steps = [L::select(first, step, zero), L::select(second & !first, step, zero)];
+        Self::code_of([base[0] + steps[0], base[1] + steps[1]], v)
     }
 }
 

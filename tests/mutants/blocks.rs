@@ -5,9 +5,10 @@ mod shared;
 
 use std::fmt::Debug;
 
-use bytemuck::{Pod, bytes_of, cast_slice};
+use bytemuck::{Pod, Zeroable, bytes_of, cast_slice};
 use shared::{Random, code, digest, vectors};
 use unitpack::decode_table::{DecodeTable, OctantTable};
+use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
@@ -187,6 +188,98 @@ fn low_dimensions_have_not_changed() {
             angle::<24, u32>(),
             signs(),
         ],
+    );
+}
+
+/// Longer than what goes over the stack at a time.
+fn long() -> [Vec<f32>; 3] {
+    let vectors: Vec<_> = vectors().into_iter().cycle().take(600).collect();
+    [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect())
+}
+
+fn dither<C: Codec<Code = u16>>() -> u64 {
+    let [x, y, z] = long();
+    let (dither, first) = (Dither::new(5), u32::MAX - 99);
+    let v = Soa { x: &x, y: &y, z: &z };
+    let [mut fast, mut precise] = [0; 2].map(|_| vec![0; x.len()]);
+    dither.encode_soa::<C>(first, v, &mut fast).unwrap();
+    dither.encode_soa_precise::<C>(first, v, &mut precise).unwrap();
+    let [mut a, mut b, mut c] = [0; 3].map(|_| vec![0.0; x.len()]);
+    let to = SoaMut { x: &mut a, y: &mut b, z: &mut c };
+    dither.decode_soa::<C>(first, &fast, to).unwrap();
+    for i in 0..x.len() {
+        let (index, v) = (first.wrapping_add(i as u32), [x[i], y[i], z[i]]);
+        assert_eq!(dither.encode::<C>(index, v), fast[i], "{v:?}");
+        assert_eq!(dither.encode_precise::<C>(index, v), precise[i], "{v:?}");
+        same(&dither.decode::<C>(index, fast[i]), &[a[i], b[i], c[i]]);
+    }
+    digest(bytes(&fast).chain(bytes(&precise)).chain(bytes(&a)).chain(bytes(&b)).chain(bytes(&c)))
+}
+
+fn stochastic<C: StochasticRounding>() -> u64 {
+    let [x, y, z] = long();
+    let (dither, first) = (Dither::new(6), u32::MAX - 99);
+    let mut codes = vec![C::Code::zeroed(); x.len()];
+    dither.encode_soa_stochastic::<C>(first, Soa { x: &x, y: &y, z: &z }, &mut codes).unwrap();
+    for (i, &code) in codes.iter().enumerate() {
+        let v = [x[i], y[i], z[i]];
+        assert_eq!(dither.encode_stochastic::<C>(first.wrapping_add(i as u32), v), code, "{v:?}");
+    }
+    digest(bytes(&codes))
+}
+
+#[test]
+fn dither_has_not_changed() {
+    compare(
+        &[
+            ("dither oct16", 0x44AFAED5BB01E99C),
+            ("dither angularcube15", 0xE4D93B3D70FD1B4E),
+            ("dither HemiOct16", 0xDF850438BCA5BE34),
+            ("stochastic oct8", 0xDFA82BCCCDA1C0DC),
+            ("stochastic sixoct16", 0xB5C87118CBF1AE9E),
+            ("stochastic oct24", 0x13B5CA1F140E1325),
+        ],
+        &[
+            dither::<Oct16>(),
+            dither::<AngularCube15>(),
+            dither::<HemiOct16>(),
+            stochastic::<Oct8>(),
+            stochastic::<SixOct16>(),
+            stochastic::<Oct24>(),
+        ],
+    );
+}
+
+fn fibonacci(n: u32) -> u64 {
+    let points = SphericalFibonacci::new(n).unwrap();
+    let [x, y, z] = long();
+    let mut indices = vec![0; x.len()];
+    points.encode_soa(Soa { x: &x, y: &y, z: &z }, &mut indices).unwrap();
+    let mut random = Random(8);
+    indices.extend((0..101).map(|_| random.bits() % (n + 1)));
+    let [mut a, mut b, mut c] = [0; 3].map(|_| vec![0.0; indices.len()]);
+    points.decode_soa(&indices, SoaMut { x: &mut a, y: &mut b, z: &mut c }).unwrap();
+    for (i, &index) in indices.iter().enumerate() {
+        if i < x.len() {
+            assert_eq!(points.encode([x[i], y[i], z[i]]), index);
+        }
+        same(&points.decode(index), &[a[i], b[i], c[i]]);
+    }
+    digest(bytes(&indices).chain(bytes(&a)).chain(bytes(&b)).chain(bytes(&c)))
+}
+
+#[test]
+fn fibonacci_has_not_changed() {
+    assert!([0, (1 << 24) + 1].iter().all(|&n| SphericalFibonacci::new(n).is_none()));
+    assert_eq!([1, 1 << 24].map(|n| SphericalFibonacci::new(n).unwrap().points()), [1, 1 << 24]);
+    compare(
+        &[
+            ("fibonacci 1", 0x97AC05DB2BD2CE79),
+            ("fibonacci 20", 0xAFAB6CB4D37609C6),
+            ("fibonacci 1000", 0x02F27B598735D553),
+            ("fibonacci 2^24", 0x95AD27D326A511DB),
+        ],
+        &[fibonacci(1), fibonacci(20), fibonacci(1000), fibonacci(1 << 24)],
     );
 }
 

@@ -4,6 +4,7 @@ use core::array;
 
 use bytemuck::Zeroable;
 use unitpack::decode_table::{OctantTable, SignSymmetric};
+use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::low_dimensions::Angle;
 use unitpack::packing::{
     dense_len, pack_dense, pack_snorm12x2, pack_snorm12x2_slice, unpack_dense, unpack_snorm12x2,
@@ -11,8 +12,8 @@ use unitpack::packing::{
 };
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{
-    AngularCube16, CodeInt, HemiOct16, Oct8, Soa, SoaMut, SphericalFibonacci, WarpedCube16,
-    XyOnly16,
+    AngularCube16, CodeInt, Codec, HemiOct16, Oct8, Oct16, Soa, SoaMut, SphericalFibonacci,
+    WarpedCube16, XyOnly16,
 };
 
 use crate::LEN;
@@ -40,6 +41,10 @@ pub fn report() {
     let mut row = Row::new();
     row.fibonacci(1).fibonacci(21).fibonacci(1000).fibonacci(1 << 20).fibonacci(1 << 24);
     row.print("fibonacci");
+    let mut row = Row::new();
+    row.dither::<Oct16>().dither::<HemiOct16>().dither::<WarpedCube16>();
+    row.stochastic::<Oct8>().stochastic::<Oct16>();
+    row.print("dither");
     let mut row = Row::new();
     row.snorm12x2();
     row.print("snorm12x2");
@@ -126,6 +131,33 @@ impl Row {
             self.decode.floats(component);
         }
         self.decode.floats(indices.map(|i| points.decode(i)).as_flattened());
+        self
+    }
+
+    fn dither<C: Codec<Code = u16>>(&mut self) -> &mut Self {
+        let dither = Dither::new(5);
+        let [x, y, z] = [(); 3].map(|()| self.numbers());
+        let v = Soa { x: &x, y: &y, z: &z };
+        let mut codes = [0; LEN];
+        dither.encode_soa::<C>(u32::MAX - 10, v, &mut codes).expect("lengths that fit");
+        self.encode.words(codes.map(u32::from));
+
+        let [mut x, mut y, mut z] = [[0.0; LEN]; 3];
+        let v = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+        dither.decode_soa::<C>(u32::MAX - 10, &codes, v).expect("lengths that fit");
+        for component in [&x, &y, &z] {
+            self.decode.floats(component);
+        }
+        self
+    }
+
+    fn stochastic<C: StochasticRounding>(&mut self) -> &mut Self {
+        let [x, y, z] = [(); 3].map(|()| self.numbers());
+        let v = Soa { x: &x, y: &y, z: &z };
+        let mut codes = [C::Code::zeroed(); LEN];
+        let dither = Dither::new(6);
+        dither.encode_soa_stochastic::<C>(9, v, &mut codes).expect("lengths that fit");
+        self.encode.bytes(bytemuck::cast_slice(&codes));
         self
     }
 

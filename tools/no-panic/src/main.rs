@@ -23,6 +23,7 @@ use core::str::FromStr;
 
 use bytemuck::Zeroable;
 use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable, SignSymmetric};
+use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
@@ -305,6 +306,43 @@ fn low_dimensions() {
     black_box(Sign::decode_slice(bytes, x).is_ok());
 }
 
+fn dithered<C: Codec>() {
+    let dither = Dither::new(black_box(1));
+    let index = black_box(7);
+    let v = black_box([0.0, 0.6, 0.8]);
+    black_box(dither.decode::<C>(index, dither.encode::<C>(index, v)));
+    black_box(dither.encode_precise::<C>(index, v));
+    let (mut buffers, mut codes) = (Buffers::new(), [C::Code::zeroed(); LEN]);
+    let codes = opaque(&mut codes);
+    black_box(dither.encode_soa::<C>(index, buffers.read(), codes).is_ok());
+    black_box(dither.encode_soa_precise::<C>(index, buffers.read(), codes).is_ok());
+    black_box(dither.decode_soa::<C>(index, codes, buffers.write()).is_ok());
+}
+
+fn stochastic<C: StochasticRounding>() {
+    let dither = Dither::new(black_box(1));
+    black_box(dither.encode_stochastic::<C>(black_box(7), black_box([0.0, 0.6, 0.8])));
+    let (mut buffers, mut codes) = (Buffers::new(), [C::Code::zeroed(); LEN]);
+    let codes = opaque(&mut codes);
+    black_box(dither.encode_soa_stochastic::<C>(7, buffers.read(), codes).is_ok());
+}
+
+fn all_dithered() {
+    // One of each type of code, and a hemisphere's.
+    dithered::<Oct8>();
+    dithered::<Oct16>();
+    dithered::<Oct24>();
+    dithered::<Oct32>();
+    dithered::<Snorm16x3>();
+    dithered::<Float32x3>();
+    dithered::<HemiOct16>();
+    macro_rules! each {
+        ($($codec:ident)*) => { $(stochastic::<$codec>();)* };
+    }
+    each!(Oct8 Oct10 Oct12 Oct14 Oct16 Oct18 Oct20 Oct22 Oct24 Oct26 Oct28 Oct30 Oct32);
+    each!(SixOct16 SixOct24 SixOct32);
+}
+
 fn fibonacci() {
     let Some(points) = SphericalFibonacci::new(black_box(1000)) else { return };
     black_box(points.points());
@@ -350,6 +388,7 @@ fn all() {
     decode_tables();
     low_dimensions();
     fibonacci();
+    all_dithered();
 }
 
 #[unsafe(no_mangle)]
