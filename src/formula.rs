@@ -138,36 +138,39 @@ impl Stored<One> for [u8; 3] {
     }
 }
 
-/// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become +Z, +Z, the limit
-/// direction, and `v` times a power of two.
+/// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become the last axis, the last
+/// axis, the limit direction, and `v` times a power of two.
 #[inline(always)]
-pub(crate) fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
+pub(crate) fn direction<L: Lane, const N: usize>(v: [L; N]) -> [L; N] {
     const LEAST: f32 = 9.094_947e-13; // 2^-40
     const GREATEST: f32 = 1.099_511_6e12; // 2^40
     let magnitude = magnitude(v);
     let usual = L::splat(LEAST).le(magnitude) & magnitude.le(L::splat(GREATEST));
-    let [x, y, z] = v;
     // In registers, but where the call wants them in memory.
-    let (x, y, z) = if (!usual).any() {
-        let [x, y, z] = mend([x, y, z], magnitude, usual);
-        (x, y, z)
-    } else {
-        (x, y, z)
-    };
-    [x, y, z]
+    let mut direction = v;
+    if (!usual).any() {
+        let mended = mend(v, magnitude, usual);
+        for (c, mended) in direction.iter_mut().zip(mended) {
+            *c = mended;
+        }
+    }
+    direction
 }
 
 /// The greatest |component|; NaN if there is one.
 #[inline(always)]
-fn magnitude<L: Lane>(v: [L; 3]) -> L {
+fn magnitude<L: Lane, const N: usize>(v: [L; N]) -> L {
     // As integers, magnitudes stand in the same order, with infinity and then NaN last.
-    let [x, y, z] = v.each(|c| c.abs().to_bits());
-    L::from_bits(x.max(y).max(z))
+    let mut greatest = L::Int::splat(0);
+    for c in v {
+        greatest = greatest.max(c.abs().to_bits());
+    }
+    L::from_bits(greatest)
 }
 
 #[cold]
 #[inline(never)]
-fn mend<L: Lane>(v: [L; 3], magnitude: L, usual: L::Mask) -> [L; 3] {
+fn mend<L: Lane, const N: usize>(v: [L; N], magnitude: L, usual: L::Mask) -> [L; N] {
     L::compiled_for(
         #[inline(always)]
         || {
@@ -185,18 +188,16 @@ fn mend<L: Lane>(v: [L; 3], magnitude: L, usual: L::Mask) -> [L; 3] {
                 ),
             );
             let none = !(L::zero().lt(magnitude)); // zero or NaN
-            let pole = [L::zero(), L::zero(), L::splat(1.0)];
-            [0, 1, 2].each(
-                #[inline(always)]
-                |i: usize| {
-                    let c = v[i];
-                    let at_infinity = L::splat(f32::INFINITY).le(c.abs());
-                    let limit =
-                        L::select(at_infinity, L::splat(1.0).negate_where_negative(c), L::zero());
-                    let c_mended = L::select(none, pole[i], L::select(infinite, limit, c * scale));
-                    L::select(usual, c, c_mended)
-                },
-            )
+            let mut mended = v;
+            for (i, c) in mended.iter_mut().enumerate() {
+                let at_infinity = L::splat(f32::INFINITY).le(c.abs());
+                let limit =
+                    L::select(at_infinity, L::splat(1.0).negate_where_negative(*c), L::zero());
+                let pole = if i + 1 == N { L::splat(1.0) } else { L::zero() };
+                let c_mended = L::select(none, pole, L::select(infinite, limit, *c * scale));
+                *c = L::select(usual, *c, c_mended);
+            }
+            mended
         },
     )
 }
