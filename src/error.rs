@@ -35,6 +35,9 @@ pub enum LengthMismatch {
     /// Vectors of two dimensions: the number of x and y components, and of codes.
     #[allow(missing_docs)]
     Angles { x: usize, y: usize, codes: usize },
+    /// Quaternions as a structure of arrays: the number of x, y, z and w components, and of codes.
+    #[allow(missing_docs)]
+    Quaternions { x: usize, y: usize, z: usize, w: usize, codes: usize },
 }
 
 impl LengthMismatch {
@@ -105,6 +108,15 @@ impl LengthMismatch {
     }
 
     #[inline]
+    pub(crate) fn check_quaternions([x, y, z, w]: [usize; 4], codes: usize) -> Result<(), Self> {
+        if x == codes && y == codes && z == codes && w == codes {
+            Ok(())
+        } else {
+            Err(LengthMismatch::Quaternions { x, y, z, w, codes })
+        }
+    }
+
+    #[inline]
     pub(crate) fn check_angles(x: usize, y: usize, codes: usize) -> Result<(), Self> {
         if x == codes && y == codes { Ok(()) } else { Err(LengthMismatch::Angles { x, y, codes }) }
     }
@@ -144,6 +156,9 @@ impl fmt::Display for LengthMismatch {
             ),
             LengthMismatch::Angles { x, y, codes } => {
                 write!(f, "lengths differ: x {x}, y {y}, codes {codes}")
+            }
+            LengthMismatch::Quaternions { x, y, z, w, codes } => {
+                write!(f, "lengths differ: x {x}, y {y}, z {z}, w {w}, codes {codes}")
             }
         }
     }

@@ -72,11 +72,16 @@ pub(crate) trait Words {
 
 /// Codes of at most 32 bits.
 pub(crate) struct One;
+/// Codes of one integer that need more.
+pub(crate) struct Two;
 /// Codes of three components that need more.
 pub(crate) struct Three;
 
 impl Words for One {
     type Packed<L: Lane> = L::Int;
+}
+impl Words for Two {
+    type Packed<L: Lane> = [L::Int; 2];
 }
 impl Words for Three {
     type Packed<L: Lane> = [L::Int; 3];
@@ -126,6 +131,18 @@ stored!(u16: One, u32::from, |c, i| *c = i as u16);
 stored!(u32: One, |c| c, |c, i| *c = i);
 stored!(u16: Three);
 stored!(u32: Three);
+
+impl Stored<Two> for u64 {
+    #[inline(always)]
+    fn load<L: Lane>(block: &L::Block<Self>) -> [L::Int; 2] {
+        [L::load_int(block, |c: Self| c as u32), L::load_int(block, |c: Self| (c >> 32) as u32)]
+    }
+    #[inline(always)]
+    fn store<L: Lane>(code: [L::Int; 2], block: &mut L::Block<Self>) {
+        L::store_int(code[0], block, |c: &mut Self, i| *c = u64::from(i));
+        L::store_int(code[1], block, |c: &mut Self, i| *c |= u64::from(i) << 32);
+    }
+}
 
 impl Stored<One> for [u8; 3] {
     #[inline(always)]

@@ -25,6 +25,7 @@ mod layout;
 pub mod low_dimensions;
 mod math;
 pub mod packing;
+pub mod quaternion;
 pub mod scalar;
 #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
 mod stores_x86;

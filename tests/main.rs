@@ -14,6 +14,7 @@ mod large;
 mod low_dimensions;
 mod max_error;
 mod packing;
+mod quaternion;
 mod readme;
 mod reference;
 mod scalar;
