@@ -27,7 +27,7 @@
 //!                    mean       greatest    mean       greatest
 //! SmallestThree32    0.0844     0.274       0.0793     0.158
 //! SmallestThree48    0.00263    0.00858     0.00247    0.00495
-//! SmallestThree64    0.0000827  0.000293    0.0000774  0.000160
+//! SmallestThree64    0.0000825  0.000293    0.0000774  0.000160
 //! TanThree32         0.0745     0.153       0.0734     0.153
 //! ```
 //!

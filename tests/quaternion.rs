@@ -400,8 +400,8 @@ fn comes_back<C: Meaning>(codes: &[C::Code]) {
 }
 
 fn strided_codes_come_back<C: Meaning>(stride: usize) {
-    for block in 0..64u64 {
-        let codes = (block << 26..(block + 1) << 26).step_by(stride);
+    for block in 0..4096u64 {
+        let codes = (block << 20..(block + 1) << 20).step_by(stride);
         comes_back::<C>(&codes.map(C::from_integer).collect::<Vec<_>>());
     }
 }
@@ -733,7 +733,7 @@ fn published<C: Meaning>(mean: [f64; 2]) {
 fn errors_are_as_published() {
     published::<SmallestThree32>([0.0844, 0.0793]);
     published::<SmallestThree48>([0.00263, 0.00247]);
-    published::<SmallestThree64>([0.0000827, 0.0000774]);
+    published::<SmallestThree64>([0.0000825, 0.0000774]);
     published::<TanThree32>([0.0745, 0.0734]);
 }
 

@@ -190,9 +190,13 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
     fn canonical<L: Lane>(code: Code<Y, L>) -> Code<Y, L> {
         let point = Y::unpack::<L>(code);
         let (n, _) = Self::left_out_squared::<L>(point.0);
-        let nearest = Self::nearest(Self::decode::<L>(code));
-        let emitted = Self::canonical_point::<L>(point);
-        Y::pack::<L>(select_point::<L>(n.lt(L::zero()), nearest, emitted))
+        let beyond = n.lt(L::zero());
+        let mut canonical = Self::canonical_point::<L>(point);
+        if beyond.any() {
+            let nearest = Self::nearest(Self::decode::<L>(code));
+            canonical = select_point::<L>(beyond, nearest, canonical);
+        }
+        Y::pack::<L>(canonical)
     }
 }
 
