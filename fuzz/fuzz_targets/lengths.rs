@@ -5,6 +5,9 @@ use libfuzzer_sys::fuzz_target;
 use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
+use unitpack::quaternion::{
+    QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
+};
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{CodeInt, Format, LengthMismatch, Oct8, Soa, SoaMut, SphericalFibonacci};
 use unitpack_fuzz::common::last_pattern;
@@ -24,6 +27,11 @@ fuzz_target!(|data: &[u8]| {
     tables(codec.format, lengths);
     low_dimensions(lengths);
     fibonacci(lengths);
+    let w = if bytes.byte() % 3 == 0 { bytes.length(10) } else { lengths[3] };
+    quaternions::<SmallestThree32>(lengths, w);
+    quaternions::<SmallestThree48>(lengths, w);
+    quaternions::<SmallestThree64>(lengths, w);
+    quaternions::<TanThree32>(lengths, w);
 });
 
 /// The error that lengths call for, if any, and the numbers that its message must give in this order.
@@ -230,4 +238,25 @@ fn low_dimensions(lengths: [usize; 4]) {
         check("signs", vec![0xA5; bytes], mismatch, |to| Sign::encode_slice(&vec![0.5; x], to));
         check("signs", vec![UNWRITTEN; x], mismatch, |to| Sign::decode_slice(&vec![1; bytes], to));
     }
+}
+
+fn quaternions<C: QuaternionCodec>([x, y, z, codes]: [usize; 4], w: usize) {
+    let lengths = [x, y, z, w, codes];
+    let error = LengthMismatch::Quaternions { x, y, z, w, codes };
+    let mismatch = unless(lengths == [x; 5], error, &lengths);
+    let pattern: C::Code = bytemuck::pod_read_unaligned(&[0xA5; 8][..size_of::<C::Code>()]);
+    let arrays = [x, y, z, w].map(|len| vec![0.5; len]);
+    let soa = Soa4 { x: &arrays[0], y: &arrays[1], z: &arrays[2], w: &arrays[3] };
+    check(C::NAME, vec![pattern; codes], mismatch, |to| C::encode_soa(soa, to));
+    check(C::NAME, vec![pattern; codes], mismatch, |to| C::encode_soa_precise(soa, to));
+    let unwritten = [x, y, z, w].map(|len| vec![UNWRITTEN; len]);
+    check(C::NAME, unwritten, mismatch, |[x, y, z, w]| {
+        C::decode_soa(&vec![pattern; codes], Soa4Mut { x, y, z, w })
+    });
+
+    let mismatch = unless(x == y, LengthMismatch::Aos { vectors: x, codes: y }, &lengths[..2]);
+    let structures = vec![[0.5; 4]; x];
+    check(C::NAME, vec![pattern; y], mismatch, |to| C::encode_aos(&structures, to));
+    check(C::NAME, vec![pattern; y], mismatch, |to| C::encode_aos_precise(&structures, to));
+    check(C::NAME, vec![[UNWRITTEN; 4]; x], mismatch, |to| C::decode_aos(&vec![pattern; y], to));
 }

@@ -1,14 +1,18 @@
-//! The digests of what stands beside the codecs: scalars, angles, packing and tables, encoding and decoding.
+//! The digests of what stands beside the codecs: scalars, angles, quaternions, packing and tables, encoding and
+//! decoding.
 
 use core::array;
 
-use bytemuck::Zeroable;
+use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
 use unitpack::decode_table::{OctantTable, SignSymmetric};
 use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::low_dimensions::Angle;
 use unitpack::packing::{
     dense_len, pack_dense, pack_snorm12x2, pack_snorm12x2_slice, unpack_dense, unpack_snorm12x2,
     unpack_snorm12x2_slice,
+};
+use unitpack::quaternion::{
+    QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
 };
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{
@@ -38,6 +42,10 @@ pub fn report() {
     let mut row = Row::new();
     row.angle::<1>().angle::<2>().angle::<8>().angle::<13>().angle::<24>();
     row.print("angle");
+    Row::quaternion::<SmallestThree32>();
+    Row::quaternion::<SmallestThree48>();
+    Row::quaternion::<SmallestThree64>();
+    Row::quaternion::<TanThree32>();
     let mut row = Row::new();
     row.fibonacci(1).fibonacci(21).fibonacci(1000).fibonacci(1 << 20).fibonacci(1 << 24);
     row.print("fibonacci");
@@ -161,6 +169,69 @@ impl Row {
         self
     }
 
+    fn quaternion<C: QuaternionCodec>() {
+        let mut row = Row::new();
+        for _ in 0..8 {
+            row.quaternion_block::<C>();
+        }
+        row.print(C::NAME);
+    }
+
+    fn quaternion_block<C: QuaternionCodec>(&mut self) {
+        let random = &mut self.random;
+        let mut near = [0.0; 4];
+        let q: [[f32; 4]; LEN] = array::from_fn(|i| {
+            match i % 4 {
+                // Any, and two of a pair equal.
+                0 => near = array::from_fn(|_| random.number()),
+                1 => near.rotate_left(1),
+                2 => near[i / 4 % 4] = -near[(i / 4 + 1) % 4],
+                _ => {
+                    // On the grid.
+                    let mut code = C::Code::zeroed();
+                    random.codes(size_of::<C::Code>(), bytes_of_mut(&mut code));
+                    near = C::decode(native::<C>(code));
+                }
+            }
+            near
+        });
+        let [x, y, z, w] = [0, 1, 2, 3].map(|c: usize| q.map(|q| q[c]));
+        let soa = Soa4 { x: &x, y: &y, z: &z, w: &w };
+        let mut codes = [C::Code::zeroed(); LEN];
+        C::encode_soa(soa, &mut codes).expect("lengths that fit");
+        self.codes::<C>(&codes);
+        C::encode_soa_precise(soa, &mut codes).expect("lengths that fit");
+        self.codes::<C>(&codes);
+        C::encode_aos(&q, &mut codes).expect("lengths that fit");
+        self.codes::<C>(&codes);
+        self.codes::<C>(&q.map(C::encode));
+        self.codes::<C>(&q.map(C::encode_precise));
+
+        for code in &mut codes {
+            self.random.codes(size_of::<C::Code>(), bytes_of_mut(code));
+            *code = native::<C>(*code);
+        }
+        self.codes::<C>(&codes.map(C::canonical));
+        let [mut x, mut y, mut z, mut w] = [[0.0; LEN]; 4];
+        let soa = Soa4Mut { x: &mut x, y: &mut y, z: &mut z, w: &mut w };
+        C::decode_soa(&codes, soa).expect("lengths that fit");
+        for component in [&x, &y, &z, &w] {
+            self.decode.floats(component);
+        }
+        let mut q = [[0.0; 4]; LEN];
+        C::decode_aos(&codes, &mut q).expect("lengths that fit");
+        self.decode.floats(q.as_flattened());
+        self.decode.floats(codes.map(C::decode).as_flattened());
+    }
+
+    /// Adds codes to what is encoded.
+    fn codes<C: QuaternionCodec>(&mut self, codes: &[C::Code]) {
+        for &code in codes {
+            // Little-endian, as they are read.
+            self.encode.bytes(bytes_of(&native::<C>(code)));
+        }
+    }
+
     fn snorm12x2(&mut self) {
         let pairs: [[f32; 2]; LEN] = array::from_fn(|_| self.random.pair());
         let mut texels = [[0; 3]; LEN];
@@ -205,4 +276,16 @@ impl Row {
         self.decode.floats(codes.map(|code| table.decode(code)).as_flattened());
         self
     }
+}
+
+/// A code from little-endian bytes, or back to them.
+fn native<C: QuaternionCodec>(mut code: C::Code) -> C::Code {
+    if cfg!(target_endian = "big") {
+        // A code is one integer or an array of them, as large as its alignment. Where integers of eight
+        // bytes are aligned to four, it is little-endian.
+        for word in bytes_of_mut(&mut code).chunks_exact_mut(align_of::<C::Code>()) {
+            word.reverse();
+        }
+    }
+    code
 }

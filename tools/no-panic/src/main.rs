@@ -7,8 +7,8 @@
 //!
 //! Functions are named with their type or trait, as `.ci/no-panic` requires every public one to stand here.
 //!
-//! Left out, since `core` itself can panic there: `Debug` of what holds `f32` ([`Soa`], [`SoaMut`] and the
-//! decode tables), for `core` asserts in its digits of floats; and a width above 65535 that a caller puts
+//! Left out, since `core` itself can panic there: `Debug` of what holds `f32` ([`Soa`], [`Soa4`] and
+//! theirs to write, and the decode tables), for `core` asserts in its digits of floats; and a width above 65535 that a caller puts
 //! into a format string at run time.
 //!
 //! The feature `control` adds one panic path. It must not link, or the proof proves nothing. With the feature `std`
@@ -26,6 +26,7 @@ use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable, SignSymmetri
 use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
+use unitpack::quaternion::*;
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::*;
 
@@ -108,6 +109,7 @@ fn errors() {
         LengthMismatch::Table { vectors: a, entries: Some(b) },
         LengthMismatch::Table { vectors: a, entries: None },
         LengthMismatch::Angles { x: a, y: b, codes: c },
+        LengthMismatch::Quaternions { x: a, y: b, z: c, w: d, codes: a },
     ]) {
         display::<LengthMismatch>(error);
         derived::<LengthMismatch>(error);
@@ -353,6 +355,35 @@ fn fibonacci() {
     black_box(points.decode_soa(indices, buffers.write()).is_ok());
 }
 
+fn quaternions<C: QuaternionCodec>() {
+    black_box(<C as QuaternionCodec>::encode(black_box([0.0, 0.6, 0.0, 0.8])));
+    black_box(<C as QuaternionCodec>::encode_precise(black_box([0.0, 0.6, 0.0, 0.8])));
+    black_box(<C as QuaternionCodec>::decode(black_box(C::Code::zeroed())));
+    black_box(<C as QuaternionCodec>::canonical(black_box(C::Code::zeroed())));
+    black_box(<C as QuaternionCodec>::is_canonical(black_box(C::Code::zeroed())));
+
+    let mut codes = [C::Code::zeroed(); LEN];
+    let codes = opaque(&mut codes);
+    let [mut x, mut y, mut z, mut w] = [[0.5; LEN]; 4];
+    let (x, y, z, w) = (opaque(&mut x), opaque(&mut y), opaque(&mut z), opaque(&mut w));
+    let q = Soa4 { x, y, z, w };
+    black_box(<C as QuaternionCodec>::encode_soa(q, codes).is_ok());
+    black_box(<C as QuaternionCodec>::encode_soa_precise(q, codes).is_ok());
+    black_box(<C as QuaternionCodec>::decode_soa(codes, Soa4Mut { x, y, z, w }).is_ok());
+    let mut aos = [[0.5; 4]; LEN];
+    let aos = opaque(&mut aos);
+    black_box(<C as QuaternionCodec>::encode_aos(aos, codes).is_ok());
+    black_box(<C as QuaternionCodec>::encode_aos_precise(aos, codes).is_ok());
+    black_box(<C as QuaternionCodec>::decode_aos(codes, aos).is_ok());
+}
+
+fn all_quaternions() {
+    quaternions::<SmallestThree32>();
+    quaternions::<SmallestThree48>();
+    quaternions::<SmallestThree64>();
+    quaternions::<TanThree32>();
+}
+
 struct Buffers([[f32; LEN]; 3]);
 
 impl Buffers {
@@ -389,6 +420,7 @@ fn all() {
     low_dimensions();
     fibonacci();
     all_dithered();
+    all_quaternions();
 }
 
 #[unsafe(no_mangle)]
