@@ -480,6 +480,22 @@ fn one_code<C: Meaning>(least: usize) {
     }
 }
 
+#[test]
+fn tangents_on_the_faces_between_charts_decode_alike() {
+    let mut rng = Rng::new(13);
+    for i in 0..100_000 {
+        let mut fields = [0; 3].map(|_| rng.below(1023) as i64 - 511);
+        for _ in 0..1 + i % 3 {
+            fields[rng.below(3) as usize] = rng.pick(&[511, -511]);
+        }
+        let code = TanThree32::of_point((fields, rng.below(4) as usize));
+        let canonical = TanThree32::canonical(code);
+        let (a, b) = (TanThree32::decode(code), TanThree32::decode(canonical));
+        let bits = |q: [f32; 4]| q.map(|c| (c + 0.0).to_bits());
+        assert!(bits(a) == bits(b) || bits(a.map(|c| -c)) == bits(b), "{fields:?}: {a:?}, {b:?}");
+    }
+}
+
 fn same_rotation<C: Meaning>(q: [i64; 4]) {
     let canonical_chart = largest(q.map(|c| c as f64));
     let mut all = Vec::new();
@@ -517,6 +533,22 @@ fn a_rotation_that_several_charts_hold_has_one_code_and_one_vector() {
     one_code::<SmallestThree32>(20_000);
     one_code::<SmallestThree48>(20_000);
     one_code::<SmallestThree64>(300);
+}
+
+#[test]
+fn rounding_that_leads_into_another_chart_gives_its_code() {
+    // Integers of the squared length 2 511^2, the last two of them the greatest.
+    for [a, b, c] in [[336, 336, 385], [319, 341, 390], [249, 387, 394], [224, 392, 399]] {
+        let q = [a, b, c, c].map(|c| c as f64);
+        assert_eq!(q.iter().map(|c| c * c).sum::<f64>(), 2.0 * 511.0 * 511.0);
+        let canonical = SmallestThree32::of_point(([a, b, c], 2));
+        for off in [0.01, 0.1, 0.3, 0.49] {
+            let q = SmallestThree32::at([0, 1, 2].map(|i| q[i] - off), 3);
+            assert_eq!(largest(q), 3);
+            let code = SmallestThree32::encode(q.map(|c| c as f32));
+            assert_eq!(code, canonical, "{q:?}");
+        }
+    }
 }
 
 fn any_input<C: Meaning>() {

@@ -162,7 +162,7 @@ impl Layout for Fifteens {
 
     #[inline(always)]
     fn pack<L: Lane>(([i, j, l], index): Point<L>) -> [L::Int; 3] {
-        [i.low(15) | index.low(1).shl(15), j.low(15) | index.shr(1).shl(15), l.low(15)]
+        [i.low(15) | index.shl(15), j.low(15) | index.shr(1).shl(15), l.low(15)]
     }
     #[inline(always)]
     fn fields<L: Lane>(code: [L::Int; 3]) -> Point<L> {

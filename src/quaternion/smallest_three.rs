@@ -64,13 +64,13 @@ impl<Y: Layout> SmallestThree<Y> {
         (high * L::splat(1_048_576.0) + rest, low)
     }
 
-    /// Of the codes that mean one rotation the one that is emitted, if n >= 0.
+    /// Of the codes that mean one rotation the one that is emitted. Any if n < 0.
     #[inline(always)]
     fn canonical_point<L: Lane>((fields, index): Point<L>) -> Point<L> {
         let (n, low) = Self::left_out_squared::<L>(fields);
         let root = sqrt(n).round_int();
         // The root is off by less than 0.3, so equal low bits mean that all are.
-        let whole = (root * root).eq(low) & L::zero().le(n);
+        let whole = (root * root).eq(low);
         let q = LeftOut::<L>::new(index).insert(fields, root, L::Int::select);
         select_point::<L>(whole, in_chart_of_largest::<L>(q), (fields, index))
     }

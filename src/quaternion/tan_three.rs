@@ -26,13 +26,11 @@ use crate::math::{angle_in_octant, dot, inv_sqrt, sin_cos_of_half};
 pub(super) struct TanThree<Y>(PhantomData<Y>);
 
 impl<Y: Layout> TanThree<Y> {
-    /// tan((pi / 4) i / M); exact at the ends.
+    /// tan((pi / 4) i / M); exact at the ends, as the sine of 45 degrees is the cosine.
     #[inline(always)]
     fn tan<L: Lane>(i: L::Int) -> L {
-        let x = L::from_int(i);
-        let (sin, cos) = sin_cos_of_half(x * L::splat(0.5 / Y::M as f32));
-        let end = L::splat(1.0).negate_where_negative(x);
-        L::select(L::splat(Y::M as f32).le(x.abs()), end, sin / cos)
+        let (sin, cos) = sin_cos_of_half(L::from_int(i) * L::splat(0.5 / Y::M as f32));
+        sin / cos
     }
 
     /// Its inverse of `side / axis`, for |side| <= |axis|.
