@@ -349,8 +349,8 @@ fn plain_rounding<C: Meaning>() {
         // Elsewhere it is a tie, of a field or of two greatest components, that f32 cannot tell.
         ties += 1;
         let params = C::params(of, got.1);
-        for i in 0..3 {
-            let off = (params[i] - got.0[i] as f64).abs();
+        for (param, field) in params.into_iter().zip(got.0) {
+            let off = (param - field as f64).abs();
             assert!(off < 0.5 + 5e-7 * C::M as f64, "{} {q:?}: {got:?}, not {expected:?}", C::NAME);
         }
         let (unit, chart) = (unit(of), largest(of));
