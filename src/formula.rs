@@ -155,36 +155,55 @@ impl Stored<One> for [u8; 3] {
     }
 }
 
-/// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become the last axis, the last
-/// axis, the limit direction, and `v` times a power of two.
+/// `v` itself unless it is zero, NaN, infinite, huge or tiny. Those become +Z, +Z, the limit
+/// direction, and `v` times a power of two.
 #[inline(always)]
-pub(crate) fn direction<L: Lane, const N: usize>(v: [L; N]) -> [L; N] {
+pub(crate) fn direction<L: Lane>(v: [L; 3]) -> [L; 3] {
+    let magnitude = magnitude(v);
+    let usual = is_usual(magnitude);
+    let [x, y, z] = v;
+    // In registers, but where the call wants them in memory.
+    let (x, y, z) = if (!usual).any() {
+        let [x, y, z] = mend([x, y, z], magnitude, usual);
+        (x, y, z)
+    } else {
+        (x, y, z)
+    };
+    [x, y, z]
+}
+
+/// [`direction`] in four dimensions, where zero and NaN become +W.
+#[inline(always)]
+pub(crate) fn direction4<L: Lane>([x, y, z, w]: [L; 4]) -> [L; 4] {
+    let last = w.abs().to_bits();
+    let magnitude = L::from_bits(magnitude([x, y, z]).to_bits().max(last));
+    let usual = is_usual(magnitude);
+    let (x, y, z, w) = if (!usual).any() {
+        let [x, y, z, w] = mend([x, y, z, w], magnitude, usual);
+        (x, y, z, w)
+    } else {
+        (x, y, z, w)
+    };
+    [x, y, z, w]
+}
+
+/// Whether formulas understand a vector with this greatest |component|.
+#[inline(always)]
+fn is_usual<L: Lane>(magnitude: L) -> L::Mask {
     const LEAST: f32 = 9.094_947e-13; // 2^-40
     const GREATEST: f32 = 1.099_511_6e12; // 2^40
-    let magnitude = magnitude(v);
-    let usual = L::splat(LEAST).le(magnitude) & magnitude.le(L::splat(GREATEST));
-    // In registers, but where the call wants them in memory.
-    let mut direction = v;
-    if (!usual).any() {
-        let mended = mend(v, magnitude, usual);
-        for (c, mended) in direction.iter_mut().zip(mended) {
-            *c = mended;
-        }
-    }
-    direction
+    L::splat(LEAST).le(magnitude) & magnitude.le(L::splat(GREATEST))
 }
 
 /// The greatest |component|; NaN if there is one.
 #[inline(always)]
-fn magnitude<L: Lane, const N: usize>(v: [L; N]) -> L {
+fn magnitude<L: Lane>(v: [L; 3]) -> L {
     // As integers, magnitudes stand in the same order, with infinity and then NaN last.
-    let mut greatest = L::Int::splat(0);
-    for c in v {
-        greatest = greatest.max(c.abs().to_bits());
-    }
-    L::from_bits(greatest)
+    let [x, y, z] = v.each(|c| c.abs().to_bits());
+    L::from_bits(x.max(y).max(z))
 }
 
+/// Zero and NaN become the last axis.
 #[cold]
 #[inline(never)]
 fn mend<L: Lane, const N: usize>(v: [L; N], magnitude: L, usual: L::Mask) -> [L; N] {

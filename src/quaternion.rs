@@ -50,7 +50,7 @@ use bytemuck::Pod;
 
 use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
-use crate::formula::{Stored, Words, direction};
+use crate::formula::{Stored, Words, direction4};
 use crate::lane::Lane;
 
 mod chart;
@@ -262,7 +262,7 @@ codecs! {
 trait Rotation: 'static {
     type Words: Words;
 
-    /// The fast encoder, of what [`direction`] gives. Gives canonical codes.
+    /// The fast encoder, of what [`direction4`] gives. Gives canonical codes.
     fn encode<L: Lane>(q: [L; 4]) -> <Self::Words as Words>::Packed<L>;
     /// The code whose decoded rotation is closest to that of `q`, canonical.
     fn encode_precise<L: Lane>(q: [L; 4]) -> <Self::Words as Words>::Packed<L>;
@@ -302,7 +302,7 @@ fn encode_block<E: Encoder, F: Rotation, C: Stored<F::Words>, L: Lane>(
     codes: &mut L::Block<C>,
 ) {
     let [x, y, z, w] = q;
-    let q = direction([L::load(x), L::load(y), L::load(z), L::load(w)]);
+    let q = direction4([L::load(x), L::load(y), L::load(z), L::load(w)]);
     C::store::<L>(E::encode::<F, L>(q), codes);
 }
 
