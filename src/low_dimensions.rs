@@ -9,7 +9,7 @@ use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
 use crate::formula::direction;
 use crate::lane::{Each, Lane, LaneInt};
-use crate::math::{angle_in_octant, sin_cos_quarter_turns};
+use crate::math::{angle_in_octant, sin_cos_of_half, sin_cos_quarter_turns, turn_by_quarters};
 
 /// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
 ///
@@ -147,7 +147,7 @@ impl<const BITS: u32> Angle<BITS> {
         const { assert!(holds::<T>(Self::BITS), "the integer has too few bits for the angle") };
         // What is no direction becomes (0, 0, 1), and (0, 0) has the angle 0.
         let [x, y, _] = direction([L::load(x), L::load(y), L::zero()]);
-        L::store_int(Self::nearest([x, y]), codes, |code, k| *code = T::truncate(k));
+        L::store_int(nearest_angle::<BITS, L>([x, y]), codes, |code, k| *code = T::truncate(k));
     }
 
     #[inline(always)]
@@ -157,38 +157,59 @@ impl<const BITS: u32> Angle<BITS> {
         y: &mut L::Block<f32>,
     ) {
         const { assert!(holds::<T>(Self::BITS), "the integer has too few bits for the angle") };
-        let k = L::load_int(codes, T::into).sign_extend(BITS);
-        // Exact, as is its distance from the nearest quarter turn.
-        let quarter_turns = L::from_int(k) * L::splat(2.0 / (1u32 << (BITS - 1)) as f32);
-        let (sin, cos) = sin_cos_quarter_turns(quarter_turns);
-        // No negative zeros.
-        let [cos, sin] = [cos, sin].each(|c| c + L::zero());
+        let [cos, sin] = angle_direction::<BITS, L>(L::load_int(codes, T::into));
         cos.store(x);
         sin.store(y);
     }
+}
 
-    #[inline(always)]
-    fn nearest<L: Lane>([x, y]: [L; 2]) -> L::Int {
-        let (ax, ay) = (x.abs(), y.abs());
-        // So many eighths of a turn, and a rest in half turns: no digit of a long code is lost.
-        let (steep, rest) = angle_in_octant(ax, ay);
-        let eighths = L::Int::select(steep, L::Int::splat(1), L::Int::splat(0));
-        let mirror = |mask: L::Mask, sum: i32, (eighths, rest): (L::Int, L)| {
-            let mirrored = L::Int::splat(sum) - eighths;
-            (L::Int::select(mask, mirrored, eighths), L::select(mask, -rest, rest))
-        };
-        let angle = mirror(ax.lt(ay), 2, (eighths, rest));
-        let angle = mirror(x.lt(L::zero()), 4, angle);
-        let (eighths, rest) = mirror(y.lt(L::zero()), 0, angle);
-        let rest = rest * L::splat((1u32 << (BITS - 1)) as f32);
-        let k = if BITS < 3 {
-            let eighth = L::splat(if BITS == 1 { 0.25 } else { 0.5 });
-            (L::from_int(eighths) * eighth + rest).round_int()
-        } else {
-            eighths.shl(BITS - 3) + rest.round_int()
-        };
-        k.low(BITS)
-    }
+/// The code of the nearest multiple of 2^-`BITS` turns to the direction (x, y), of which 0 counts as +X:
+/// ties to even. For components that are zero or from 2^-100 to 2^60. Above 24 bits the last ones are
+/// those of `f32` rounding.
+#[inline(always)]
+pub(crate) fn nearest_angle<const BITS: u32, L: Lane>([x, y]: [L; 2]) -> L::Int {
+    let (ax, ay) = (x.abs(), y.abs());
+    // So many eighths of a turn, and a rest in half turns: no digit of a long code is lost.
+    let (steep, rest) = angle_in_octant(ax, ay);
+    let eighths = L::Int::select(steep, L::Int::splat(1), L::Int::splat(0));
+    let mirror = |mask: L::Mask, sum: i32, (eighths, rest): (L::Int, L)| {
+        let mirrored = L::Int::splat(sum) - eighths;
+        (L::Int::select(mask, mirrored, eighths), L::select(mask, -rest, rest))
+    };
+    let angle = mirror(ax.lt(ay), 2, (eighths, rest));
+    let angle = mirror(x.lt(L::zero()), 4, angle);
+    let (eighths, rest) = mirror(y.lt(L::zero()), 0, angle);
+    let rest = rest * L::splat((1u32 << (BITS - 1)) as f32);
+    let k = if BITS < 3 {
+        let eighth = L::splat(if BITS == 1 { 0.25 } else { 0.5 });
+        (L::from_int(eighths) * eighth + rest).round_int()
+    } else if BITS <= 24 {
+        eighths.shl(BITS - 3) + rest.round_int()
+    } else {
+        // More than a float is rounded to at once. What the first rounding leaves is exact.
+        let coarse = (rest * L::splat(1.0 / 256.0)).round_int();
+        let fine = (rest - L::from_int(coarse) * L::splat(256.0)).round_int();
+        eighths.shl(BITS - 3) + coarse.shl(8) + fine
+    };
+    k.low(BITS)
+}
+
+/// (cos, sin) of the multiple of 2^-`BITS` turns that stands in the low bits of a code, each with error
+/// below 1.2e-7, and without negative zeros.
+#[inline(always)]
+pub(crate) fn angle_direction<const BITS: u32, L: Lane>(code: L::Int) -> [L; 2] {
+    let k = code.sign_extend(BITS);
+    let (sin, cos) = if BITS <= 24 {
+        // Exact, as is its distance from the nearest quarter turn.
+        sin_cos_quarter_turns(L::from_int(k) * L::splat(2.0 / (1u32 << (BITS - 1)) as f32))
+    } else {
+        // The nearest quarter turn in integers, as a float has fewer digits; then the rest.
+        let quarter = (k + L::Int::splat(1 << (BITS - 3))).sar(BITS - 2);
+        let rest = L::from_int(k - quarter.shl(BITS - 2));
+        let rest = rest * L::splat(1.0 / (1u32 << (BITS - 2)) as f32);
+        turn_by_quarters(quarter, sin_cos_of_half(rest))
+    };
+    [cos, sin].each(|c| c + L::zero())
 }
 
 struct EncodeAngles<'a, const BITS: u32, T> {

@@ -56,8 +56,12 @@ pub(crate) fn normalize<L: Lane>(v: [L; 3]) -> [L; 3] {
 pub(crate) fn sin_cos_quarter_turns<L: Lane>(x: L) -> (L, L) {
     // Nearest quarter turn, and what is left of it.
     let quarter = x.round_int();
-    let (sin, cos) = sin_cos_of_half(x - L::from_int(quarter));
-    // Turn by the quarters.
+    turn_by_quarters(quarter, sin_cos_of_half(x - L::from_int(quarter)))
+}
+
+/// The (sin, cos) of an angle, turned by so many quarters.
+#[inline(always)]
+pub(crate) fn turn_by_quarters<L: Lane>(quarter: L::Int, (sin, cos): (L, L)) -> (L, L) {
     let odd = quarter.low(1).eq(L::Int::splat(1));
     let (sin, cos) = (L::select(odd, cos, sin), L::select(odd, sin, cos));
     let sign =
