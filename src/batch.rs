@@ -38,14 +38,19 @@ pub struct SoaMut<'a> {
 pub(crate) const STAGE: usize = if cfg!(feature = "std") { 256 } else { 64 };
 
 /// Which of a formula's encoders.
-trait Encoder {
+pub(crate) trait Encoder {
+    /// Whether it gives the nearest code.
+    const PRECISE: bool;
+
     fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L>;
 }
 
-struct Fast;
-struct Precise;
+pub(crate) struct Fast;
+pub(crate) struct Precise;
 
 impl Encoder for Fast {
+    const PRECISE: bool = false;
+
     #[inline(always)]
     fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L> {
         F::encode(v)
@@ -53,6 +58,8 @@ impl Encoder for Fast {
 }
 
 impl Encoder for Precise {
+    const PRECISE: bool = true;
+
     #[inline(always)]
     fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L> {
         F::encode_precise(v)
@@ -285,12 +292,12 @@ impl Stage {
     }
 
     #[inline(always)]
-    fn gather<const N: usize>(&mut self, vectors: &[[f32; N]]) {
+    pub(crate) fn gather<const N: usize>(&mut self, vectors: &[[f32; N]]) {
         rearrange::<N, _>(Gather { vectors, v: self.write(vectors.len()) });
     }
 
     #[inline(always)]
-    fn scatter<const N: usize>(&self, vectors: &mut [[f32; N]]) {
+    pub(crate) fn scatter<const N: usize>(&self, vectors: &mut [[f32; N]]) {
         rearrange::<N, _>(Scatter { v: self.read(vectors.len()), vectors });
     }
 }

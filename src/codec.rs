@@ -13,7 +13,7 @@ mod front_oct;
 mod hemi_oct;
 mod icosphere;
 mod latlong;
-mod oct;
+pub(crate) mod oct;
 mod octant;
 mod phi_z;
 mod spherical;

@@ -38,6 +38,13 @@ pub enum LengthMismatch {
     /// Quaternions as a structure of arrays: the number of x, y, z and w components, and of codes.
     #[allow(missing_docs)]
     Quaternions { x: usize, y: usize, z: usize, w: usize, codes: usize },
+    /// Tangent frames as structures of arrays: the number of x, y and z components of normals and of
+    /// tangents, of handednesses, and of codes.
+    #[allow(missing_docs)]
+    FrameSoa { normal: [usize; 3], tangent: [usize; 3], handedness: usize, codes: usize },
+    /// Tangent frames as arrays of structures: the number of normals, of tangents, and of codes.
+    #[allow(missing_docs)]
+    FrameAos { normals: usize, tangents: usize, codes: usize },
 }
 
 impl LengthMismatch {
@@ -120,6 +127,33 @@ impl LengthMismatch {
     pub(crate) fn check_angles(x: usize, y: usize, codes: usize) -> Result<(), Self> {
         if x == codes && y == codes { Ok(()) } else { Err(LengthMismatch::Angles { x, y, codes }) }
     }
+
+    #[inline]
+    pub(crate) fn check_frame_soa(
+        normal: [usize; 3],
+        tangent: [usize; 3],
+        handedness: usize,
+        codes: usize,
+    ) -> Result<(), Self> {
+        if normal == [codes; 3] && tangent == [codes; 3] && handedness == codes {
+            Ok(())
+        } else {
+            Err(LengthMismatch::FrameSoa { normal, tangent, handedness, codes })
+        }
+    }
+
+    #[inline]
+    pub(crate) fn check_frame_aos(
+        normals: usize,
+        tangents: usize,
+        codes: usize,
+    ) -> Result<(), Self> {
+        if normals == codes && tangents == codes {
+            Ok(())
+        } else {
+            Err(LengthMismatch::FrameAos { normals, tangents, codes })
+        }
+    }
 }
 
 impl fmt::Display for LengthMismatch {
@@ -159,6 +193,20 @@ impl fmt::Display for LengthMismatch {
             }
             LengthMismatch::Quaternions { x, y, z, w, codes } => {
                 write!(f, "lengths differ: x {x}, y {y}, z {z}, w {w}, codes {codes}")
+            }
+
+            LengthMismatch::FrameSoa {
+                normal: [x, y, z],
+                tangent: [tx, ty, tz],
+                handedness,
+                codes,
+            } => write!(
+                f,
+                "lengths differ: normal x {x}, y {y}, z {z}, tangent x {tx}, y {ty}, z {tz}, \
+                 handedness {handedness}, codes {codes}"
+            ),
+            LengthMismatch::FrameAos { normals, tangents, codes } => {
+                write!(f, "lengths differ: normals {normals}, tangents {tangents}, codes {codes}")
             }
         }
     }

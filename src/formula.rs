@@ -197,7 +197,7 @@ fn is_usual<L: Lane>(magnitude: L) -> L::Mask {
 
 /// The greatest |component|; NaN if there is one.
 #[inline(always)]
-fn magnitude<L: Lane>(v: [L; 3]) -> L {
+pub(crate) fn magnitude<L: Lane>(v: [L; 3]) -> L {
     // As integers, magnitudes stand in the same order, with infinity and then NaN last.
     let [x, y, z] = v.each(|c| c.abs().to_bits());
     L::from_bits(x.max(y).max(z))

@@ -16,6 +16,7 @@ mod error;
 mod error_report;
 mod format;
 mod formula;
+pub mod frame;
 mod half;
 mod lane;
 mod lane8;

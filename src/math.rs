@@ -31,6 +31,12 @@ pub(crate) fn dot<L: Lane>(a: [L; 3], b: [L; 3]) -> L {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// a x b.
+#[inline(always)]
+pub(crate) fn cross<L: Lane>(a: [L; 3], b: [L; 3]) -> [L; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
 /// v.v.
 #[inline(always)]
 pub(crate) fn length_squared<L: Lane>(v: [L; 3]) -> L {

@@ -9,6 +9,7 @@ mod dither;
 mod error_report;
 mod exhaustive;
 mod fibonacci;
+mod frame;
 mod golden;
 mod large;
 mod low_dimensions;

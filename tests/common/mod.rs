@@ -3,6 +3,7 @@
 #![allow(dead_code)] // Every test file is a crate of its own and uses a part of this.
 
 pub mod every_code;
+pub mod frames;
 pub mod oracle;
 pub mod published;
 
