@@ -3,6 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable};
+use unitpack::frame::{FrameCodec, OctAngle32, OctAngle64, QTangent64};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
 use unitpack::quaternion::{
@@ -11,7 +12,7 @@ use unitpack::quaternion::{
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{CodeInt, Format, LengthMismatch, Oct8, Soa, SoaMut, SphericalFibonacci};
 use unitpack_fuzz::common::last_pattern;
-use unitpack_fuzz::{AnyCodec, Arrays, Bytes, Outcome, Transcode, UNWRITTEN};
+use unitpack_fuzz::{AnyCodec, Arrays, Bytes, FrameArrays, Outcome, Transcode, UNWRITTEN};
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
@@ -32,6 +33,10 @@ fuzz_target!(|data: &[u8]| {
     quaternions::<SmallestThree48>(lengths, w);
     quaternions::<SmallestThree64>(lengths, w);
     quaternions::<TanThree32>(lengths, w);
+    let others = [(); 4].map(|()| if bytes.byte() % 3 == 0 { bytes.length(10) } else { least });
+    frames::<OctAngle32>(lengths, others);
+    frames::<OctAngle64>(lengths, others);
+    frames::<QTangent64>(lengths, others);
 });
 
 /// The error that lengths call for, if any, and the numbers that its message must give in this order.
@@ -259,4 +264,32 @@ fn quaternions<C: QuaternionCodec>([x, y, z, codes]: [usize; 4], w: usize) {
     check(C::NAME, vec![pattern; y], mismatch, |to| C::encode_aos(&structures, to));
     check(C::NAME, vec![pattern; y], mismatch, |to| C::encode_aos_precise(&structures, to));
     check(C::NAME, vec![[UNWRITTEN; 4]; x], mismatch, |to| C::decode_aos(&vec![pattern; y], to));
+}
+
+fn frames<C: FrameCodec>([a, b, c, d]: [usize; 4], [e, f, handedness, codes]: [usize; 4]) {
+    let (normal, tangent) = ([a, b, c], [d, e, f]);
+    let error = LengthMismatch::FrameSoa { normal, tangent, handedness, codes };
+    let lengths = [a, b, c, d, e, f, handedness, codes];
+    let mismatch = unless(lengths == [a; 8], error, &lengths);
+    let unwritten = |len: usize| {
+        vec![bytemuck::pod_read_unaligned::<C::Code>(&[0xA5; 8][..size_of::<C::Code>()]); len]
+    };
+    let unwritten_frames = FrameArrays::unwritten([a, b, c, d, e, f, handedness]);
+    for encode in [C::encode_soa, C::encode_soa_precise] {
+        let frames = FrameArrays([a, b, c, d, e, f, handedness].map(|len| vec![0.5; len]));
+        check(C::NAME, unwritten(codes), mismatch, |to| encode(frames.read(), to).map(drop));
+    }
+    check(C::NAME, unwritten_frames, mismatch, |to| C::decode_soa(&unwritten(codes), to.write()));
+
+    let (normals, tangents, codes) = (a, b, c);
+    let error = LengthMismatch::FrameAos { normals, tangents, codes };
+    let mismatch = unless(a == b && b == c, error, &lengths[..3]);
+    for encode in [C::encode_aos::<3>, C::encode_aos_precise::<3>] {
+        let (normals, tangents) = (vec![[0.5; 3]; normals], vec![[0.5; 4]; tangents]);
+        check(C::NAME, unwritten(codes), mismatch, |to| encode(&normals, &tangents, to).map(drop));
+    }
+    let structures = (vec![[UNWRITTEN; 3]; normals], vec![[UNWRITTEN; 4]; tangents]);
+    check(C::NAME, structures, mismatch, |to| {
+        C::decode_aos(&unwritten(codes), &mut to.0, &mut to.1)
+    });
 }

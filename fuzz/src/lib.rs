@@ -9,6 +9,7 @@ use std::sync::{LazyLock, OnceLock};
 
 pub use common::every_code::{code as native, integer};
 use common::oracle::{Oracle, oracle};
+use unitpack::frame::{Frame, FrameSoa, FrameSoaMut};
 use unitpack::{
     Codec, Float32x3, Format, LengthMismatch, Oct8, Oct16, Oct24, Oct32, Snorm16x3, Soa, SoaMut,
     Visitor, transcode,
@@ -93,6 +94,42 @@ impl Arrays {
     pub fn vectors(&self) -> Vec<Vector> {
         let [x, y, z] = &self.0;
         (0..x.len()).map(|i| [x[i], y[i], z[i]]).collect()
+    }
+}
+
+/// Frames as a structure of arrays: normals, tangents and handednesses.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FrameArrays(pub [Vec<f32>; 7]);
+
+impl FrameArrays {
+    /// Of the lengths, of a number that stands for memory not yet written.
+    pub fn unwritten(lengths: [usize; 7]) -> Self {
+        FrameArrays(lengths.map(|length| vec![UNWRITTEN; length]))
+    }
+
+    pub fn read(&self) -> FrameSoa<'_> {
+        let [nx, ny, nz, tx, ty, tz, handedness] = &self.0;
+        let (normal, tangent) = (Soa { x: nx, y: ny, z: nz }, Soa { x: tx, y: ty, z: tz });
+        FrameSoa { normal, tangent, handedness }
+    }
+
+    pub fn write(&mut self) -> FrameSoaMut<'_> {
+        let [nx, ny, nz, tx, ty, tz, handedness] = &mut self.0;
+        let (normal, tangent) = (SoaMut { x: nx, y: ny, z: nz }, SoaMut { x: tx, y: ty, z: tz });
+        FrameSoaMut { normal, tangent, handedness }
+    }
+}
+
+impl From<&[Frame]> for FrameArrays {
+    fn from(frames: &[Frame]) -> Self {
+        FrameArrays([0, 1, 2, 3, 4, 5, 6].map(|i| {
+            let component = |f: &Frame| match i {
+                0..3 => f.normal[i],
+                3..6 => f.tangent[i - 3],
+                _ => f.handedness,
+            };
+            frames.iter().map(component).collect()
+        }))
     }
 }
 
