@@ -3,9 +3,14 @@
 
 use core::array;
 
+use bytemuck::{Pod, Zeroable, bytes_of, bytes_of_mut};
 use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
 use unitpack::decode_table::{OctantTable, SignSymmetric};
+use unitpack::decode_table::{OctantTable, SignSymmetric};
 use unitpack::dither::{Dither, StochasticRounding};
+use unitpack::frame::{
+    Frame, FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, QTangent64,
+};
 use unitpack::low_dimensions::Angle;
 use unitpack::packing::{
     dense_len, pack_dense, pack_snorm12x2, pack_snorm12x2_slice, unpack_dense, unpack_snorm12x2,
@@ -19,8 +24,10 @@ use unitpack::{
     AngularCube16, CodeInt, Codec, HemiOct16, Oct8, Oct16, Soa, SoaMut, SphericalFibonacci,
     WarpedCube16, XyOnly16,
 };
+use unitpack::{AngularCube16, CodeInt, HemiOct16, Oct8, Soa, SoaMut, WarpedCube16, XyOnly16};
 
 use crate::LEN;
+use crate::codecs::swap_to_little_endian;
 use crate::digest::Digest;
 use crate::inputs::Random;
 use crate::platform::line;
@@ -53,6 +60,9 @@ pub fn report() {
     row.dither::<Oct16>().dither::<HemiOct16>().dither::<WarpedCube16>();
     row.stochastic::<Oct8>().stochastic::<Oct16>();
     row.print("dither");
+    frames::<OctAngle32>();
+    frames::<OctAngle64>();
+    frames::<QTangent64>();
     let mut row = Row::new();
     row.snorm12x2();
     row.print("snorm12x2");
@@ -64,6 +74,23 @@ pub fn report() {
     row.octant_table::<WarpedCube16>().octant_table::<AngularCube16>();
     // Tables only decode.
     line(format_args!("{:20} {:16} {:016x}", "octant-table", "", row.decode.finish()));
+}
+
+/// The line of one codec of frames.
+fn frames<C: FrameCodec>() {
+    let mut row = Row::new();
+    for _ in 0..16 {
+        row.frames::<C>();
+    }
+    row.print(C::NAME);
+}
+
+/// As little-endian bytes.
+fn digest_codes<C: Pod>(codes: &[C], digest: &mut Digest) {
+    for &(mut code) in codes {
+        swap_to_little_endian::<C>(bytes_of_mut(&mut code));
+        digest.bytes(bytes_of(&code));
+    }
 }
 
 /// The digests of one line. Every method adds some inputs.
@@ -230,6 +257,63 @@ impl Row {
             // Little-endian, as they are read.
             self.encode.bytes(bytes_of(&native::<C>(code)));
         }
+    }
+
+    /// A frame of any kind: its tangent any, across the normal or parallel to it.
+    fn frame(&mut self) -> Frame {
+        let [normal, any] = [(); 2].map(|()| [(); 3].map(|()| self.random.number()));
+        let [x, y, z] = normal;
+        let tangent = match self.random.bits() >> 30 {
+            0 => [-y, x, 0.0],
+            1 => [x + 1e-6 * any[0], y, z],
+            _ => any,
+        };
+        Frame { normal, tangent, handedness: self.random.number() }
+    }
+
+    fn frames<C: FrameCodec>(&mut self) {
+        let frames: [Frame; LEN] = array::from_fn(|_| self.frame());
+        let [nx, ny, nz] = [0, 1, 2].map(|i: usize| frames.map(|f| f.normal[i]));
+        let [tx, ty, tz] = [0, 1, 2].map(|i: usize| frames.map(|f| f.tangent[i]));
+        let (normal, tangent) = (Soa { x: &nx, y: &ny, z: &nz }, Soa { x: &tx, y: &ty, z: &tz });
+        let soa = FrameSoa { normal, tangent, handedness: &frames.map(|f| f.handedness) };
+        let mut codes = [C::Code::zeroed(); LEN];
+        for (encode, single) in [
+            (C::encode_soa as fn(_, &mut [_]) -> _, C::encode as fn(_) -> _),
+            (C::encode_soa_precise, C::encode_precise),
+        ] {
+            let skew = encode(soa, &mut codes).expect("lengths that fit");
+            digest_codes(&codes, &mut self.encode);
+            self.encode.words([skew.index as u32]);
+            self.encode.floats(&[skew.degrees]);
+            digest_codes(&frames.map(single), &mut self.encode);
+        }
+
+        let mut patterns = [0; 8 * LEN];
+        let size = size_of::<C::Code>();
+        self.random.codes(size, &mut patterns[..size * LEN]);
+        for (code, bytes) in codes.iter_mut().zip(patterns.chunks_exact(size)) {
+            bytes_of_mut(code).copy_from_slice(bytes);
+            swap_to_little_endian::<C::Code>(bytes_of_mut(code));
+        }
+        let [mut nx, mut ny, mut nz] = [[0.0; LEN]; 3];
+        let [mut tx, mut ty, mut tz] = [[0.0; LEN]; 3];
+        let mut handedness = [0.0; LEN];
+        let soa = FrameSoaMut {
+            normal: SoaMut { x: &mut nx, y: &mut ny, z: &mut nz },
+            tangent: SoaMut { x: &mut tx, y: &mut ty, z: &mut tz },
+            handedness: &mut handedness,
+        };
+        C::decode_soa(&codes, soa).expect("lengths that fit");
+        for column in [&nx, &ny, &nz, &tx, &ty, &tz, &handedness] {
+            self.decode.floats(column);
+        }
+        for frame in codes.map(C::decode) {
+            self.decode.floats(&frame.normal);
+            self.decode.floats(&frame.tangent);
+            self.decode.floats(&[frame.handedness]);
+        }
+        digest_codes(&codes.map(C::canonical), &mut self.decode);
     }
 
     fn snorm12x2(&mut self) {

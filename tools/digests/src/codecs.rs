@@ -53,7 +53,7 @@ impl Visitor for One {
             decode: |bytes| {
                 let mut code = C::Code::zeroed();
                 bytes_of_mut(&mut code).copy_from_slice(bytes);
-                swap_to_little_endian::<C>(bytes_of_mut(&mut code));
+                swap_to_little_endian::<C::Code>(bytes_of_mut(&mut code));
                 C::decode(code)
             },
         }
@@ -64,14 +64,14 @@ fn to_bytes<C: Codec>(code: C::Code) -> [u8; CODE] {
     let mut bytes = [0; CODE];
     let own = &mut bytes[..size_of::<C::Code>()];
     own.copy_from_slice(bytes_of(&code));
-    swap_to_little_endian::<C>(own);
+    swap_to_little_endian::<C::Code>(own);
     bytes
 }
 
 /// A code is one integer or an array of them, as large as its alignment.
-fn swap_to_little_endian<C: Codec>(bytes: &mut [u8]) {
+pub fn swap_to_little_endian<C>(bytes: &mut [u8]) {
     if cfg!(target_endian = "big") {
-        bytes.chunks_exact_mut(align_of::<C::Code>()).for_each(<[u8]>::reverse);
+        bytes.chunks_exact_mut(align_of::<C>()).for_each(<[u8]>::reverse);
     }
 }
 
