@@ -24,6 +24,9 @@ use core::str::FromStr;
 use bytemuck::Zeroable;
 use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable, SignSymmetric};
 use unitpack::dither::{Dither, StochasticRounding};
+use unitpack::frame::{
+    Frame, FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, QTangent64,
+};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
 use unitpack::quaternion::*;
@@ -110,6 +113,8 @@ fn errors() {
         LengthMismatch::Table { vectors: a, entries: None },
         LengthMismatch::Angles { x: a, y: b, codes: c },
         LengthMismatch::Quaternions { x: a, y: b, z: c, w: d, codes: a },
+        LengthMismatch::FrameSoa { normal: [a, b, c], tangent: [a, b, c], handedness: d, codes: a },
+        LengthMismatch::FrameAos { normals: a, tangents: b, codes: c },
     ]) {
         display::<LengthMismatch>(error);
         derived::<LengthMismatch>(error);
@@ -384,6 +389,56 @@ fn all_quaternions() {
     quaternions::<TanThree32>();
 }
 
+/// All entry points of one codec of frames.
+fn frames<C: FrameCodec>() {
+    let frame = Frame { normal: [0.0, 0.6, 0.8], tangent: [1.0, 0.0, 0.0], handedness: 1.0 };
+    black_box(<C as FrameCodec>::encode(black_box(frame)));
+    black_box(<C as FrameCodec>::encode_precise(black_box(frame)));
+    black_box(<C as FrameCodec>::decode(black_box(C::Code::zeroed())));
+    black_box(<C as FrameCodec>::canonical(black_box(C::Code::zeroed())));
+    black_box(<C as FrameCodec>::is_canonical(black_box(C::Code::zeroed())));
+
+    let (mut normal, mut tangent) = (Buffers::new(), Buffers::new());
+    let (mut codes, mut handedness) = ([C::Code::zeroed(); LEN], [1.0; LEN]);
+    let codes = &mut codes[..];
+    let handedness = &mut handedness[..];
+    for precise in black_box([false, true]) {
+        let handedness = black_box(&*handedness);
+        let frames = FrameSoa { normal: normal.read(), tangent: tangent.read(), handedness };
+        let codes = black_box(&mut *codes);
+        let skew = if precise {
+            <C as FrameCodec>::encode_soa_precise(frames, codes)
+        } else {
+            <C as FrameCodec>::encode_soa(frames, codes)
+        };
+        black_box(skew.is_ok());
+    }
+    let handedness = black_box(handedness);
+    let frames = FrameSoaMut { normal: normal.write(), tangent: tangent.write(), handedness };
+    black_box(<C as FrameCodec>::decode_soa(black_box(codes), frames).is_ok());
+    frame_structures::<C, 3>(codes);
+    frame_structures::<C, 4>(codes);
+}
+
+fn frame_structures<C: FrameCodec, const N: usize>(codes: &mut [C::Code]) {
+    let (normals, tangents) = (&mut [[0.5; N]; LEN], &mut [[0.5; 4]; LEN]);
+    let (normals, tangents) = (opaque(normals), opaque(tangents));
+    let codes = opaque(codes);
+    black_box(<C as FrameCodec>::encode_aos(normals, tangents, codes).is_ok());
+    black_box(<C as FrameCodec>::encode_aos_precise(normals, tangents, codes).is_ok());
+    black_box(<C as FrameCodec>::decode_aos(codes, normals, tangents).is_ok());
+}
+
+fn all_frames() {
+    frames::<OctAngle32>();
+    frames::<OctAngle64>();
+    frames::<QTangent64>();
+    let frame = Frame { normal: [0.0, 0.6, 0.8], tangent: [1.0, 0.0, 0.0], handedness: 1.0 };
+    black_box(Frame::bitangent(black_box(frame)));
+    black_box(Frame::skew_degrees(black_box(frame)));
+    black_box(black_box(frame) == black_box(frame));
+}
+
 struct Buffers([[f32; LEN]; 3]);
 
 impl Buffers {
@@ -421,6 +476,7 @@ fn all() {
     fibonacci();
     all_dithered();
     all_quaternions();
+    all_frames();
 }
 
 #[unsafe(no_mangle)]
