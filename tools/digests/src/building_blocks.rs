@@ -4,8 +4,6 @@
 use core::array;
 
 use bytemuck::{Pod, Zeroable, bytes_of, bytes_of_mut};
-use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
-use unitpack::decode_table::{OctantTable, SignSymmetric};
 use unitpack::decode_table::{OctantTable, SignSymmetric};
 use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::frame::{
@@ -24,7 +22,6 @@ use unitpack::{
     AngularCube16, CodeInt, Codec, HemiOct16, Oct8, Oct16, Soa, SoaMut, SphericalFibonacci,
     WarpedCube16, XyOnly16,
 };
-use unitpack::{AngularCube16, CodeInt, HemiOct16, Oct8, Soa, SoaMut, WarpedCube16, XyOnly16};
 
 use crate::LEN;
 use crate::codecs::swap_to_little_endian;
@@ -192,7 +189,7 @@ impl Row {
         let mut codes = [C::Code::zeroed(); LEN];
         let dither = Dither::new(6);
         dither.encode_soa_stochastic::<C>(9, v, &mut codes).expect("lengths that fit");
-        self.encode.bytes(bytemuck::cast_slice(&codes));
+        digest_codes(&codes, &mut self.encode);
         self
     }
 
@@ -364,12 +361,6 @@ impl Row {
 
 /// A code from little-endian bytes, or back to them.
 fn native<C: QuaternionCodec>(mut code: C::Code) -> C::Code {
-    if cfg!(target_endian = "big") {
-        // A code is one integer or an array of them, as large as its alignment. Where integers of eight
-        // bytes are aligned to four, it is little-endian.
-        for word in bytes_of_mut(&mut code).chunks_exact_mut(align_of::<C::Code>()) {
-            word.reverse();
-        }
-    }
+    swap_to_little_endian::<C::Code>(bytes_of_mut(&mut code));
     code
 }
