@@ -40,9 +40,8 @@
 //! assert!((0..4).all(|i| (back[i] - q[i]).abs() < 1e-3));
 //! ```
 //!
-//! Source: smallest three: Gregorius, "Compressing Quaternions" in "Game Programming Gems", and
-//! Fiedler, "Snapshot Compression", 2015. That all charts are searched, and the tangents over the
-//! largest component, are unitpack's.
+//! Source: smallest three: Fiedler, "Snapshot Compression", 2015. That all charts are searched, and the
+//! tangents over the largest component, are unitpack's.
 
 use core::marker::PhantomData;
 

@@ -3,7 +3,13 @@
 
 use std::hint::black_box;
 
-use unitpack::{Codec, Format, LengthMismatch, Soa, SoaMut, Visitor};
+use bytemuck::Zeroable;
+use unitpack::dither::{Dither, StochasticRounding};
+use unitpack::frame::{FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, QTangent64};
+use unitpack::quaternion::{
+    QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
+};
+use unitpack::{Codec, Format, LengthMismatch, Oct16, Soa, SoaMut, SphericalFibonacci, Visitor};
 
 /// Vectors in a batch: whole blocks, and a few more.
 const LEN: usize = 512 + 5;
@@ -15,6 +21,16 @@ fn main() {
     for format in Format::ALL {
         format.visit(Count { x: &x, y: &y, z: &z });
     }
+    let v = Soa { x: &x, y: &y, z: &z };
+    frames::<OctAngle32>(v);
+    frames::<OctAngle64>(v);
+    frames::<QTangent64>(v);
+    quaternions::<SmallestThree32>(v);
+    quaternions::<SmallestThree48>(v);
+    quaternions::<SmallestThree64>(v);
+    quaternions::<TanThree32>(v);
+    fibonacci(v);
+    dither::<Oct16>(v);
 }
 
 struct Count<'a> {
@@ -30,11 +46,12 @@ impl Visitor for Count<'_> {
         let Count { x, y, z } = self;
         let mut codes = [C::encode([0.0, 0.0, 1.0]); LEN];
         let [mut to_x, mut to_y, mut to_z] = [[0.0; LEN]; 3];
-        count::<C>("encode", LEN, &mut || C::encode_soa(Soa { x, y, z }, &mut codes));
-        count::<C>("decode", LEN, &mut || {
+        let name = C::FORMAT.name();
+        count(name, "encode", LEN, &mut || C::encode_soa(Soa { x, y, z }, &mut codes));
+        count(name, "decode", LEN, &mut || {
             C::decode_soa(&codes, SoaMut { x: &mut to_x, y: &mut to_y, z: &mut to_z })
         });
-        count::<C>("precise", FEW, &mut || {
+        count(name, "precise", FEW, &mut || {
             let few = Soa { x: &x[..FEW], y: &y[..FEW], z: &z[..FEW] };
             C::encode_soa_precise(few, &mut codes[..FEW])
         });
@@ -42,9 +59,62 @@ impl Visitor for Count<'_> {
     }
 }
 
-fn count<C: Codec>(what: &str, len: usize, job: &mut dyn FnMut() -> Result<(), LengthMismatch>) {
+fn frames<C: FrameCodec>(normal: Soa<'_>) {
+    // Any tangent will do.
+    let tangent = Soa { x: normal.y, y: normal.z, z: normal.x };
+    let frames = FrameSoa { normal, tangent, handedness: normal.x };
+    let mut codes = [C::Code::zeroed(); LEN];
+    count(C::NAME, "encode", LEN, &mut || C::encode_soa(frames, &mut codes).map(drop));
+    let mut to = [[0.0; LEN]; 7];
+    count(C::NAME, "decode", LEN, &mut || {
+        let [x, y, z, tx, ty, tz, handedness] = &mut to;
+        let (normal, tangent) = (SoaMut { x, y, z }, SoaMut { x: tx, y: ty, z: tz });
+        C::decode_soa(&codes, FrameSoaMut { normal, tangent, handedness })
+    });
+    count(C::NAME, "precise", LEN, &mut || C::encode_soa_precise(frames, &mut codes).map(drop));
+    black_box((codes, to));
+}
+
+fn quaternions<C: QuaternionCodec>(Soa { x, y, z }: Soa<'_>) {
+    let q = Soa4 { x, y, z, w: x };
+    let mut codes = [C::Code::zeroed(); LEN];
+    count(C::NAME, "encode", LEN, &mut || C::encode_soa(q, &mut codes));
+    let mut to = [[0.0; LEN]; 4];
+    count(C::NAME, "decode", LEN, &mut || {
+        let [x, y, z, w] = &mut to;
+        C::decode_soa(&codes, Soa4Mut { x, y, z, w })
+    });
+    count(C::NAME, "precise", LEN, &mut || C::encode_soa_precise(q, &mut codes));
+    black_box((codes, to));
+}
+
+fn fibonacci(v: Soa<'_>) {
+    let points = SphericalFibonacci::new(black_box(1_000_000)).unwrap();
+    let mut indices = [0; LEN];
+    count("fibonacci of any number", "encode", LEN, &mut || points.encode_soa(v, &mut indices));
+    let [mut x, mut y, mut z] = [[0.0; LEN]; 3];
+    count("fibonacci of any number", "decode", LEN, &mut || {
+        points.decode_soa(&indices, SoaMut { x: &mut x, y: &mut y, z: &mut z })
+    });
+    black_box((indices, x, y, z));
+}
+
+fn dither<C: StochasticRounding>(v: Soa<'_>) {
+    let dither = Dither::new(0);
+    let mut codes = [C::Code::zeroed(); LEN];
+    let name = format!("dithered {}", C::FORMAT);
+    count(&name, "stochastic", LEN, &mut || dither.encode_soa_stochastic::<C>(0, v, &mut codes));
+    count(&name, "encode", LEN, &mut || dither.encode_soa::<C>(0, v, &mut codes));
+    let [mut x, mut y, mut z] = [[0.0; LEN]; 3];
+    count(&name, "decode", LEN, &mut || {
+        dither.decode_soa::<C>(0, &codes, SoaMut { x: &mut x, y: &mut y, z: &mut z })
+    });
+    black_box((codes, x, y, z));
+}
+
+fn count(name: &str, what: &str, len: usize, job: &mut dyn FnMut() -> Result<(), LengthMismatch>) {
     measured(job);
-    println!("{},{what},{len}", C::FORMAT);
+    println!("{name},{what},{len}");
 }
 
 /// What is counted; `run` knows it by this name.
