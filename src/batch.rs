@@ -114,11 +114,84 @@ pub(crate) fn decode_one<F: Formula, C: Stored<F::Words>>(code: C) -> [f32; 3] {
     F::decode::<f32>(C::load::<f32>(&[code]))
 }
 
+/// What is made of codes without vectors.
+trait Operation {
+    fn apply<F: Formula, L: Lane>(&self, code: Packed<F, L>) -> Packed<F, L>;
+}
+
+struct Canonical;
+
+impl Operation for Canonical {
+    #[inline(always)]
+    fn apply<F: Formula, L: Lane>(&self, code: Packed<F, L>) -> Packed<F, L> {
+        F::canonical::<L>(code)
+    }
+}
+
+/// Which components are negated.
+struct Mirror([bool; 3]);
+
+impl Operation for Mirror {
+    #[inline(always)]
+    fn apply<F: Formula, L: Lane>(&self, code: Packed<F, L>) -> Packed<F, L> {
+        F::mirror::<L>(code, self.0)
+    }
+}
+
+#[inline(always)]
+fn apply_to_block<O: Operation, F: Formula, C: Stored<F::Words>, L: Lane>(
+    operation: &O,
+    codes: &mut L::Block<C>,
+) {
+    C::store::<L>(operation.apply::<F, L>(C::load::<L>(codes)), codes);
+}
+
+#[inline(always)]
+fn apply_to_one<O: Operation, F: Formula, C: Stored<F::Words>>(operation: &O, code: C) -> C {
+    let mut code = [code];
+    apply_to_block::<O, F, C, f32>(operation, &mut code);
+    code[0]
+}
+
+#[inline(never)]
+fn apply_to_all<O: Operation, F: Formula, C: Stored<F::Words>>(operation: &O, codes: &mut [C]) {
+    struct ApplyToAll<'a, O, F, C> {
+        operation: &'a O,
+        codes: &'a mut [C],
+        formula: PhantomData<F>,
+    }
+    impl<O: Operation, F: Formula, C: Stored<F::Words>> Job for ApplyToAll<'_, O, F, C> {
+        #[inline(always)]
+        fn run<L: Lane>(self) -> Self {
+            let ApplyToAll { operation, codes, formula } = self;
+            let (blocks, codes) = L::split_mut(codes);
+            for block in blocks {
+                apply_to_block::<O, F, C, L>(operation, block);
+            }
+            ApplyToAll { operation, codes, formula }
+        }
+    }
+    dispatch(ApplyToAll { operation, codes, formula: PhantomData::<F> });
+}
+
 #[inline]
 pub(crate) fn canonical_one<F: Formula, C: Stored<F::Words>>(code: C) -> C {
-    let mut canonical = [C::zeroed()];
-    C::store::<f32>(F::canonical::<f32>(C::load::<f32>(&[code])), &mut canonical);
-    canonical[0]
+    apply_to_one::<_, F, C>(&Canonical, code)
+}
+
+#[inline]
+pub(crate) fn canonical_all<F: Formula, C: Stored<F::Words>>(codes: &mut [C]) {
+    apply_to_all::<_, F, C>(&Canonical, codes);
+}
+
+#[inline]
+pub(crate) fn mirror_one<F: Formula, C: Stored<F::Words>>(code: C, flips: [bool; 3]) -> C {
+    apply_to_one::<_, F, C>(&Mirror(flips), code)
+}
+
+#[inline]
+pub(crate) fn mirror_all<F: Formula, C: Stored<F::Words>>(codes: &mut [C], flips: [bool; 3]) {
+    apply_to_all::<_, F, C>(&Mirror(flips), codes);
 }
 
 #[inline]

@@ -36,6 +36,23 @@ pub use fibonacci::SphericalFibonacci;
 /// Two parameters u and v of 12 bits stand in three bytes as the survey's RGB8 has them:
 /// `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`. Snorm ones are then biased: u and v plus 2047, where
 /// 4095 reads as 4094. All other codes of three bytes are integers in little-endian order.
+///
+/// # Operations on codes
+/// [`canonical`](Codec::canonical), [`negate`](Codec::negate) and [`mirror`](Codec::mirror) take any bit pattern and give
+/// what `encode_precise` gives for the decoded vector, or that negated or mirrored: a canonical code. In a hemisphere's format, a
+/// direction mirrored in Z falls below the rim, and so is put on it.
+///
+/// Where a mirror image is a point of the format, it is exact: doing it twice gives the canonical code again, and negating
+/// is mirroring in X, Y and Z in turn. It is found in integers, in a few instructions, except for the following, which decode and
+/// encode after all and give the nearest point:
+///
+/// - z: HemiOct, XYOnly, frontoct, quadfrontoct, oct-unorm. x: phi-z and, but for the poles, latlong and the parallels of latlongD that
+///   have an odd number of points. Negating does both.
+/// - x and z: of disk projections as they are, without a stretch, codes whose image would be in column 0 of the lower
+///   hemisphere, which does not exist.
+/// - All: fibonacci, and snorm16x3, xyz-unorm16x3 and float16x3, whose images are exact up to `f32` rounding.
+///
+/// Half way between two points, as in x of phi-z and latlong, rounding decides. `Float32x3` flips signs, of NaN too.
 pub trait Codec: Copy + 'static {
     /// One packed vector. Its bits are laid out as the codec's page says.
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;
@@ -71,6 +88,44 @@ pub trait Codec: Copy + 'static {
     fn is_canonical(code: Self::Code) -> bool {
         Self::canonical(code) == code
     }
+
+    /// The code of the opposite direction: `encode_precise` of the negated `decode(code)`. Most formats find it
+    /// without decoding: see [Operations on codes](Codec#operations-on-codes).
+    ///
+    /// ```
+    /// use unitpack::{Codec, Oct16};
+    /// let [z, minus_z] = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]].map(Oct16::encode);
+    /// assert_eq!(Oct16::negate(z), minus_z);
+    /// ```
+    fn negate(code: Self::Code) -> Self::Code;
+
+    /// The code of the direction mirrored in one axis: `encode_precise` of `decode(code)` with that component
+    /// negated. Most formats find it without decoding: see [Operations on codes](Codec#operations-on-codes).
+    ///
+    /// ```
+    /// use unitpack::{Axis, Codec, Oct16};
+    /// // (127, 5) is a point of the border, where (127, -5) means the same.
+    /// let code = |u: i8, w: i8| u16::from_le_bytes([u as u8, w as u8]);
+    /// assert_eq!(Oct16::mirror(code(127, 5), Axis::X), code(-127, 5));
+    /// assert_eq!(Oct16::mirror(code(127, 5), Axis::Y), code(127, 5));
+    /// ```
+    fn mirror(code: Self::Code, axis: Axis) -> Self::Code;
+
+    /// Whether two codes, any bit patterns, mean one direction: whether their [`canonical`](Codec::canonical)
+    /// codes are equal.
+    #[inline]
+    fn same_direction(a: Self::Code, b: Self::Code) -> bool {
+        Self::canonical(a) == Self::canonical(b)
+    }
+
+    /// [`canonical`](Codec::canonical) for many codes, in place.
+    fn canonical_slice(codes: &mut [Self::Code]);
+
+    /// [`negate`](Codec::negate) for many codes, in place.
+    fn negate_slice(codes: &mut [Self::Code]);
+
+    /// [`mirror`](Codec::mirror) for many codes, in place.
+    fn mirror_slice(codes: &mut [Self::Code], axis: Axis);
 
     /// [`encode`](Codec::encode) for structures of arrays.
     ///
@@ -135,6 +190,24 @@ pub trait Codec: Copy + 'static {
     }
 }
 
+/// A component of a vector, which [`Codec::mirror`] negates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl Axis {
+    #[inline(always)]
+    fn flips(self) -> [bool; 3] {
+        [self == Axis::X, self == Axis::Y, self == Axis::Z]
+    }
+}
+
 /// Writes the types, their `Codec`, and `Format` from the table below.
 macro_rules! codecs {
     ($(
@@ -177,6 +250,26 @@ macro_rules! codecs {
                 #[inline]
                 fn canonical(code: $code) -> $code {
                     batch::canonical_one::<$formula, $code>(code)
+                }
+                #[inline]
+                fn negate(code: $code) -> $code {
+                    batch::mirror_one::<$formula, $code>(code, [true; 3])
+                }
+                #[inline]
+                fn mirror(code: $code, axis: Axis) -> $code {
+                    batch::mirror_one::<$formula, $code>(code, axis.flips())
+                }
+                #[inline]
+                fn canonical_slice(codes: &mut [$code]) {
+                    batch::canonical_all::<$formula, $code>(codes);
+                }
+                #[inline]
+                fn negate_slice(codes: &mut [$code]) {
+                    batch::mirror_all::<$formula, $code>(codes, [true; 3]);
+                }
+                #[inline]
+                fn mirror_slice(codes: &mut [$code], axis: Axis) {
+                    batch::mirror_all::<$formula, $code>(codes, axis.flips());
                 }
                 #[inline]
                 fn encode_soa(v: Soa<'_>, codes: &mut [$code]) -> Result<(), LengthMismatch> {

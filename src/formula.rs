@@ -38,6 +38,53 @@ pub(crate) trait Formula: 'static {
 
     /// The code that encoders emit for the direction of `code`.
     fn canonical<L: Lane>(code: Packed<Self, L>) -> Packed<Self, L>;
+
+    /// The code that `encode_precise` gives for the decoded vector with the components negated that are to be
+    /// flipped.
+    #[inline(always)]
+    fn mirror<L: Lane>(code: Packed<Self, L>, flips: [bool; 3]) -> Packed<Self, L> {
+        mirror_decoded::<Self, L>(code, flips)
+    }
+}
+
+/// [`Formula::mirror`] by its definition, for what has no mirror image among the points.
+#[inline(always)]
+pub(crate) fn mirror_decoded<F: Formula + ?Sized, L: Lane>(
+    code: Packed<F, L>,
+    flips: [bool; 3],
+) -> Packed<F, L> {
+    let v = F::decode::<L>(code);
+    let mirrored = [0, 1, 2].each(
+        #[inline(always)]
+        |i: usize| L::from_bits(v[i].to_bits() ^ sign_bit::<L>(flips[i])),
+    );
+    F::encode_precise(F::prepare(mirrored))
+}
+
+/// The sign of an `f32` if it is to be flipped.
+#[inline(always)]
+pub(crate) fn sign_bit<L: Lane>(flip: bool) -> L::Int {
+    L::Int::splat(i32::from(flip) << 31)
+}
+
+/// Minus `i` if it is to be flipped; without a branch, which in a loop would remain.
+#[inline(always)]
+pub(crate) fn negate_if<I: LaneInt>(i: I, flip: bool) -> I {
+    let mask = I::splat(-i32::from(flip));
+    (i ^ mask) - mask
+}
+
+/// [`negate_if`] for the components of a point.
+#[inline(always)]
+pub(crate) fn mirror_point<I: LaneInt>([x, y, z]: [I; 3], flips: [bool; 3]) -> [I; 3] {
+    [negate_if(x, flips[0]), negate_if(y, flips[1]), negate_if(z, flips[2])]
+}
+
+/// The opposite of `mask` if it is to be flipped.
+#[inline(always)]
+pub(crate) fn not_if<L: Lane>(mask: L::Mask, flip: bool) -> L::Mask {
+    let flip = L::Int::splat(i32::from(flip)).eq(L::Int::splat(1));
+    mask & !flip | !mask & flip
 }
 
 /// A formula whose decoder is the same, bit for bit, in all octants: mirroring a code mirrors its

@@ -4,6 +4,7 @@ mod common;
 
 mod agree;
 mod axes;
+mod code_operations;
 mod decode_table;
 mod dither;
 mod error_report;

@@ -23,7 +23,9 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Formula, One, Packed, Symmetric, Three, Words};
+use crate::formula::{
+    Formula, One, Packed, Symmetric, Three, Words, mirror_decoded, mirror_point, sign_bit,
+};
 use crate::half;
 use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
 use crate::layout::{snorm_max, unorm_max};
@@ -295,6 +297,15 @@ impl<G: Grid> Cartesian<G> {
             #[inline(always)]
             |i: usize| G::value(point[i], L::splat(1.0 / G::STEPS[i])),
         )
+    }
+
+    /// The point of a code; (0, 0, 0) is +Z.
+    #[inline(always)]
+    fn point<L: Lane>(code: Packed<Self, L>) -> [L::Int; 3] {
+        let [x, y, z] = G::unpack::<L>(code);
+        let is_zero = (x | y | z).eq(L::Int::splat(0));
+        let [_, _, pole] = Self::nearest([L::zero(), L::zero(), L::splat(1.0)]);
+        [x, y, L::Int::select(is_zero, pole, z)]
     }
 
     #[inline(always)]
@@ -705,12 +716,15 @@ impl<G: Grid> Formula for Cartesian<G> {
         if !G::DISTINCT {
             return Self::encode_precise(Self::decode::<L>(code));
         }
-        let [x, y, z] = G::unpack::<L>(code);
-        let zero = L::Int::splat(0);
-        let is_zero = (x | y | z).eq(zero);
-        let [_, _, pole] = Self::nearest([L::zero(), L::zero(), L::splat(1.0)]);
-        let point = [x, y, L::Int::select(is_zero, pole, z)];
-        G::pack::<L>(G::representative::<L>(point))
+        G::pack::<L>(G::representative::<L>(Self::point::<L>(code)))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: Packed<Self, L>, flips: [bool; 3]) -> Packed<Self, L> {
+        if !G::DISTINCT {
+            return mirror_decoded::<Self, L>(code, flips);
+        }
+        G::pack::<L>(G::representative::<L>(mirror_point(Self::point::<L>(code), flips)))
     }
 }
 
@@ -775,6 +789,11 @@ impl Formula for BestFit {
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         Cartesian::<Unorm<8>>::canonical::<L>(code)
     }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        Cartesian::<Unorm<8>>::mirror::<L>(code, flips)
+    }
 }
 
 /// Three `f32`, bit for bit.
@@ -798,5 +817,13 @@ impl Formula for Floats {
     #[inline(always)]
     fn canonical<L: Lane>(code: [L::Int; 3]) -> [L::Int; 3] {
         code
+    }
+    #[inline(always)]
+    fn mirror<L: Lane>([x, y, z]: [L::Int; 3], flips: [bool; 3]) -> [L::Int; 3] {
+        let [flip_x, flip_y, flip_z] = flips.each(
+            #[inline(always)]
+            |flip| sign_bit::<L>(flip),
+        );
+        [x ^ flip_x, y ^ flip_y, z ^ flip_z]
     }
 }

@@ -18,7 +18,7 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Formula, One, Symmetric, closest_of_four};
+use crate::formula::{Formula, One, Symmetric, closest_of_four, mirror_point};
 use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::layout::snorm_max;
 use crate::math::{atan2_half_turns, normalize, sin_cos_of_half};
@@ -222,6 +222,12 @@ impl<W: Spacing, const BITS: u32> Formula for Cube<W, BITS> {
         let (point, axis) = Self::unpack::<L>(code);
         Self::pack::<L>(turn_back(point, by_axis::<L>(axis)))
     }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        let (point, axis) = Self::unpack::<L>(code);
+        Self::pack::<L>(mirror_point(turn_back(point, by_axis::<L>(axis)), flips))
+    }
 }
 
 impl<W: Spacing, const BITS: u32> Symmetric for Cube<W, BITS> {
@@ -352,6 +358,19 @@ impl Cells {
         )
     }
 
+    #[inline(always)]
+    fn mirror<L: Lane>(self, code: L::Int, flips: [bool; 3]) -> L::Int {
+        let ([i, j], face) = self.unpack::<L>(code);
+        let flips = flips.each(|flip| L::Int::splat(-i32::from(flip)));
+        let turned = [0, 1, 2].each(|axis| turn_to_axis(flips, axis));
+        let pick = by_axis::<L>(face.shr(1));
+        let [main, a, b] =
+            [0, 1, 2].each(|i: usize| pick(turned[0][i], turned[1][i], turned[2][i]));
+        // From the other end: side + (-1 - i), and -1 - i is i with all bits flipped.
+        let side = L::Int::splat(self.side);
+        self.pack::<L>([(i ^ a) + (side & a), (j ^ b) + (side & b)], face ^ main.low(1))
+    }
+
     /// Cells from the middle of an edge to its end.
     const fn half_side(self) -> i32 {
         (self.side + 1) / 2
@@ -397,6 +416,11 @@ impl<const BITS: u32> Formula for AngularCube<BITS> {
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         let (cell, face) = Self::CELLS.unpack::<L>(code.low(BITS));
         Self::CELLS.pack::<L>(cell, face)
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        Self::CELLS.mirror::<L>(code.low(BITS), flips)
     }
 }
 

@@ -34,7 +34,7 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Closest, Formula, One, Symmetric};
+use crate::formula::{Closest, Formula, One, Symmetric, mirror_decoded, negate_if, not_if};
 use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math::{
@@ -615,6 +615,12 @@ impl<P: Projection, S: Stretch, const BITS: u32> Disk<P, S, BITS> {
         let [column, row] = unpack_snorm2::<BITS, L>(code);
         Point { column: column.abs(), row, lower: column.lt(L::Int::splat(0)) }
     }
+
+    #[inline(always)]
+    fn canonical_of<L: Lane>(point: Point<L>) -> L::Int {
+        let point = if S::CORNERS { Chart::<P, S>::in_own_chart(point, Self::M) } else { point };
+        pack_snorm2::<BITS, L>(Chart::<P, S>::snorms(&point, Self::M))
+    }
 }
 
 impl<P: Projection, S: Stretch, const BITS: u32> Formula for Disk<P, S, BITS> {
@@ -641,9 +647,28 @@ impl<P: Projection, S: Stretch, const BITS: u32> Formula for Disk<P, S, BITS> {
 
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        let point = Self::point::<L>(code);
-        let point = if S::CORNERS { Chart::<P, S>::in_own_chart(point, Self::M) } else { point };
-        pack_snorm2::<BITS, L>(Chart::<P, S>::snorms(&point, Self::M))
+        Self::canonical_of(Self::point::<L>(code))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        let (max, zero) = (L::Int::splat(Self::M), L::Int::splat(0));
+        let Point { column, row, lower } = Self::point::<L>(code);
+        let column = if flips[0] { max - column } else { column };
+        let row = negate_if(row, flips[1]);
+        let lower = not_if::<L>(lower, flips[2]);
+        // Column 0 is the upper hemisphere's alone. Of the lower one's, what is on the equator is upper too, and what
+        // is outside the disk is missing.
+        let no_column = lower & column.eq(zero);
+        let mirrored = Self::canonical_of::<L>(Point { column, row, lower: lower & !no_column });
+        if !S::CORNERS {
+            return mirrored;
+        }
+        let missing = no_column & !row.eq(zero);
+        if !missing.any() {
+            return mirrored;
+        }
+        L::Int::select(missing, mirror_decoded::<Self, L>(code, flips), mirrored)
     }
 }
 

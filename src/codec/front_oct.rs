@@ -21,7 +21,7 @@
 //! Representations for Independent Unit Vectors", 2014, "Conclusions"; the map is unitpack's.
 
 use crate::codec::oct::{Central, Oct, Projection, triangle_around};
-use crate::formula::{Closest, Formula, One};
+use crate::formula::{Closest, Formula, One, mirror_decoded};
 use crate::lane::{Each, Lane, inlined};
 use crate::layout::snorm_max;
 use crate::math;
@@ -120,5 +120,14 @@ impl<const BITS: u32, const F: u32> Formula for FrontOct<BITS, F> {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         Oct::<Central, BITS>::canonical::<L>(code)
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        if flips[2] {
+            mirror_decoded::<Self, L>(code, flips)
+        } else {
+            Oct::<Central, BITS>::mirror::<L>(code, flips)
+        }
     }
 }

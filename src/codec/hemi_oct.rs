@@ -16,7 +16,7 @@
 //! 2014; signed oct: White, "Signed Octahedron Normal Encoding", 2017, whose parameters are unorm,
 //! so that it has no +-Z.
 
-use crate::formula::{Formula, One, Symmetric, closest_of_four};
+use crate::formula::{Formula, One, Symmetric, closest_of_four, mirror_decoded, negate_if, not_if};
 use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math;
@@ -32,6 +32,14 @@ impl<const BITS: u32> HemiOct<BITS> {
         let scale = L::splat(Self::M as f32) / (x.abs() + y.abs() + z);
         let (x, y) = (x * scale, y * scale);
         [x + y, x - y]
+    }
+
+    /// The code with x or y negated: (x + y, x - y) becomes minus (x - y, x + y) or (x - y, x + y).
+    #[inline(always)]
+    fn mirror_xy<L: Lane>(code: L::Int, x: bool, y: bool) -> L::Int {
+        let [u, w] = unpack_snorm2::<BITS, L>(code);
+        let [u, w] = if x != y { [w, u] } else { [u, w] };
+        pack_snorm2::<BITS, L>([negate_if(u, x), negate_if(w, x)])
     }
 }
 
@@ -64,6 +72,12 @@ impl<const BITS: u32> Formula for HemiOct<BITS> {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         pack_snorm2::<BITS, L>(unpack_snorm2::<BITS, L>(code))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        let [x, y, z] = flips;
+        if z { mirror_decoded::<Self, L>(code, flips) } else { Self::mirror_xy::<L>(code, x, y) }
     }
 }
 
@@ -105,6 +119,12 @@ impl<const PAIR: u32> Formula for SignedOct<PAIR> {
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         let lower = L::Int::splat(0).lt(code.shr(PAIR).low(1));
         Self::signed::<L>(HemiOct::<PAIR>::canonical::<L>(code), lower)
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, [x, y, z]: [bool; 3]) -> L::Int {
+        let lower = L::Int::splat(0).lt(code.shr(PAIR).low(1));
+        Self::signed::<L>(HemiOct::<PAIR>::mirror_xy::<L>(code, x, y), not_if::<L>(lower, z))
     }
 }
 

@@ -17,7 +17,8 @@
 //! ```
 //!
 //! signs has a bit for each component that is not zero, x first, set if it is negative. A move takes
-//! (x, y, z) to (z, x, y). Codes from 162 read as 161. A table of 2 KB holds the vertices for decoding.
+//! (x, y, z) to (z, x, y). Codes from 162 read as 161. A table of 2 KB holds the vertices for decoding,
+//! one of 486 bytes the codes of mirror images.
 //!
 //! All six axes survive exactly. Both encoders give the nearest code.
 //!
@@ -110,6 +111,33 @@ const fn images(point: [f64; 3]) -> usize {
     images
 }
 
+/// The code of every vertex with x, y or z negated.
+static MIRROR_IMAGES: [[u8; VERTICES]; 3] = mirror_images();
+
+const fn mirror_images() -> [[u8; VERTICES]; 3] {
+    let mut table = [[0; VERTICES]; 3];
+    let mut n = 0;
+    while n < 27 {
+        let Corner { point, code } = CORNERS[n];
+        let mut signs = 0;
+        while signs < images(point) {
+            let (mut i, mut sign) = (0, 1);
+            while i < 3 {
+                let mut image = signs;
+                if point[i] > 0.0 {
+                    image ^= sign;
+                    sign <<= 1;
+                }
+                table[i][code + signs] = (code + image) as u8;
+                i += 1;
+            }
+            signs += 1;
+        }
+        n += 1;
+    }
+    table
+}
+
 const fn table() -> [[u32; VERTICES]; 3] {
     let mut table = [[0; VERTICES]; 3];
     let mut n = 0;
@@ -172,5 +200,16 @@ impl Formula for Icosphere {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         code.low(8).min(L::Int::splat(VERTICES as i32 - 1))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        let mut code = Self::canonical::<L>(code);
+        for (images, flip) in MIRROR_IMAGES.iter().zip(flips) {
+            if flip {
+                code = L::gather(images, code);
+            }
+        }
+        code
     }
 }

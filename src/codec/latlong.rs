@@ -21,8 +21,8 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Closest, Formula, One, around};
-use crate::lane::{Lane, LaneInt, inlined};
+use crate::formula::{Closest, Formula, One, around, mirror_decoded, negate_if};
+use crate::lane::{Lane, LaneInt, LaneMask, inlined};
 use crate::layout::unorm_max;
 use crate::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
 
@@ -117,6 +117,25 @@ impl<P: Parallels> Formula for LatLong<P> {
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         let [parallel, k, count] = P::find::<L>(code);
         P::band::<L>(parallel).0 + wrap::<L>(k, count)
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        let [x, y, z] = flips;
+        let [parallel, k, count] = P::find::<L>(code);
+        let k = wrap::<L>(negate_if(wrap::<L>(k, count), y), count);
+        let opposite = wrap::<L>(count.shr(1) - k, count);
+        let parallel = if z { L::Int::splat(P::LAST) - parallel } else { parallel };
+        let (begin, there) = P::band::<L>(parallel);
+        let mirrored = begin + if x { opposite } else { k };
+        // Off the poles, half a turn of an odd number of points ends between two.
+        let one = L::Int::splat(1);
+        let between = one.lt(count) & one.lt(count.low(1) + L::Int::splat(i32::from(x)));
+        let missing = between | !there.eq(count);
+        if !missing.any() {
+            return mirrored;
+        }
+        L::Int::select(missing, mirror_decoded::<Self, L>(code, flips), mirrored)
     }
 }
 

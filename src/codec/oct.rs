@@ -35,7 +35,9 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Closest, Formula, Lattice, One, Symmetric, closest_of_four};
+use crate::formula::{
+    Closest, Formula, Lattice, One, Symmetric, closest_of_four, mirror_decoded, negate_if,
+};
 use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::layout::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
 use crate::math;
@@ -251,6 +253,14 @@ impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Formula for Oct<P, BIT
         let point = plus_on_border::<L>(Self::unpack::<L>(code), Self::M);
         pack_snorm2::<BITS, L>(point)
     }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, [x, y, z]: [bool; 3]) -> L::Int {
+        let [u, w] = Self::unpack::<L>(code);
+        let point = [negate_if(u, x), negate_if(w, y)];
+        let point = if z { across_equator::<L>(point, Self::M) } else { point };
+        pack_snorm2::<BITS, L>(plus_on_border::<L>(point, Self::M))
+    }
 }
 
 impl<const BITS: u32, const MULTIPLE: i32> Lattice for Oct<Central, BITS, MULTIPLE> {
@@ -324,6 +334,14 @@ fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 3] {
     );
     // Below the diagonals, where more is left over than is there, fold back.
     [copy_sign(i.min(left_i), u), copy_sign(j.min(left_j), w), left_i - i]
+}
+
+/// The point of the square from -m to m whose z is the opposite: its mirror image in the diagonal of its quarter.
+#[inline(always)]
+fn across_equator<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 2] {
+    let (max, zero) = (L::Int::splat(m), L::Int::splat(0));
+    let (i, j) = (max - w.abs(), max - u.abs());
+    [L::Int::select(u.lt(zero), -i, i), L::Int::select(w.lt(zero), -j, j)]
 }
 
 /// The canonical one of a point of the square from -m to m and its mirror image on the border.
@@ -402,6 +420,21 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         Self::pack::<L>(Self::canonical_point::<L>(unpack2::<BITS, L>(code)))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        let [x, y, z] = flips;
+        if z {
+            // Odd numbers, folded over the diagonals, are even.
+            return mirror_decoded::<Self, L>(code, flips);
+        }
+        let [u, w] = unpack2::<BITS, L>(code);
+        let index = inlined(
+            #[inline(always)]
+            |i: L::Int, flip: bool| if flip { L::Int::splat(Self::M) - i } else { i },
+        );
+        Self::pack::<L>(Self::canonical_point::<L>([index(u, x), index(w, y)]))
     }
 }
 

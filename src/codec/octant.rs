@@ -16,7 +16,7 @@
 //! Source: Baptista, "Higher Accuracy Quantized Normals", GameDev.net, 2000.
 
 use crate::codec::oct::{nearest_on_octahedron, triangle_index, triangle_len};
-use crate::formula::{Formula, One, Symmetric};
+use crate::formula::{Formula, One, Symmetric, not_if};
 use crate::lane::{Each, Lane, LaneInt, inlined};
 use crate::math::normalize;
 
@@ -104,6 +104,15 @@ impl Formula for Octant {
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         let [i, j, _] = Self::magnitudes::<L>(code);
         Self::pack::<L>([i, j], Self::negative::<L>(code))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        let [i, j, _] = Self::magnitudes::<L>(code);
+        let [x, y, z] = Self::negative::<L>(code);
+        let negative =
+            [not_if::<L>(x, flips[0]), not_if::<L>(y, flips[1]), not_if::<L>(z, flips[2])];
+        Self::pack::<L>([i, j], negative)
     }
 }
 

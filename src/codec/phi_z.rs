@@ -10,7 +10,7 @@
 //!
 //! Source: Narkowicz, "Octahedron Normal Vector Encoding", 2014 (spherical coordinates).
 
-use crate::formula::{Formula, One, closest_of_four};
+use crate::formula::{Formula, One, closest_of_four, mirror_decoded};
 use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack2, unorm_max, unpack2};
 use crate::math::{atan2_half_turns, normalize, sin_cos_quarter_turns, sqrt};
@@ -79,5 +79,18 @@ impl<const BITS: u32> Formula for PhiZ<BITS> {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         pack2::<BITS, L>(Self::canonical_params::<L>(unpack2::<BITS, L>(code)))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        if flips[0] {
+            // Half a turn is no whole number of steps.
+            return mirror_decoded::<Self, L>(code, flips);
+        }
+        let max = L::Int::splat(Self::M);
+        let [phi, z] = unpack2::<BITS, L>(code);
+        let phi = if flips[1] { max - phi } else { phi };
+        let z = if flips[2] { max - z } else { z };
+        pack2::<BITS, L>(Self::canonical_params::<L>([phi, z]))
     }
 }

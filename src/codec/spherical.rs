@@ -12,7 +12,7 @@
 //! 2014. The angle of a vector near a pole comes from atan2, where acos(z) would lose half its
 //! digits.
 
-use crate::formula::{Formula, One, closest_of_four};
+use crate::formula::{Formula, One, closest_of_four, negate_if};
 use crate::lane::{Each, Lane, LaneInt};
 use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::math::{atan2_half_turns, sin_cos_of_one, sin_cos_quarter_turns, sqrt};
@@ -72,5 +72,16 @@ impl<const BITS: u32> Formula for Spherical<BITS> {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         Self::pack::<L>(unpack_snorm2::<BITS, L>(code))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, [x, y, z]: [bool; 3]) -> L::Int {
+        let [u, w] = unpack_snorm2::<BITS, L>(code);
+        let w = negate_if(w, y);
+        // Half a turn less the azimuth.
+        let max = L::Int::splat(Self::M);
+        let half = L::Int::select(w.lt(L::Int::splat(0)), -max, max);
+        let w = if x { half - w } else { w };
+        Self::pack::<L>([negate_if(u, z), w])
     }
 }

@@ -20,7 +20,7 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::{Closest, Formula, One, Symmetric};
+use crate::formula::{Closest, Formula, One, Symmetric, mirror_decoded, negate_if};
 use crate::half;
 use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
 use crate::layout::{pack2, unorm_max, unpack2};
@@ -298,6 +298,16 @@ impl<G: Grid> Formula for XyOnly<G> {
     #[inline(always)]
     fn canonical<L: Lane>(code: L::Int) -> L::Int {
         G::pack::<L>(Self::canonical_point::<L>(G::unpack::<L>(code)))
+    }
+
+    #[inline(always)]
+    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+        if flips[2] {
+            return mirror_decoded::<Self, L>(code, flips);
+        }
+        let [x, y] = G::unpack::<L>(code);
+        let point = [negate_if(x, flips[0]), negate_if(y, flips[1])];
+        G::pack::<L>(Self::canonical_point::<L>(point))
     }
 }
 

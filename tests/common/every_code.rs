@@ -1,7 +1,7 @@
 //! What must hold for every single code of a format of at most 32 bits.
 
 use bytemuck::Pod;
-use unitpack::{Codec, Format, Soa, SoaMut, Visitor};
+use unitpack::{Axis, Codec, Format, Soa, SoaMut, Visitor};
 
 use super::oracle::Oracle;
 use super::{cross, dot, widen};
@@ -188,4 +188,82 @@ fn decoded_alike<C: Codec>(codes: &[C::Code], v: Soa<'_>) -> Result<(), String> 
         }
     }
     Ok(())
+}
+
+/// Looks at what is made of codes without vectors. Each code
+/// - is made canonical, negated and mirrored in each axis as decoding, doing it to the vector and encoding
+///   precisely does it,
+/// - in a slice and alone,
+/// - means the direction of the one before it if both have the same canonical code.
+pub fn check_operations(format: Format, codes: &[u128]) -> Result<(), String> {
+    format.visit(Operations(codes))
+}
+
+struct Operations<'a>(&'a [u128]);
+
+/// Something that is made of one code, of a slice, and which components of the vector it negates.
+type Operation<C> = (&'static str, fn(C) -> C, fn(&mut [C]), [bool; 3]);
+
+impl Visitor for Operations<'_> {
+    type Output = Result<(), String>;
+
+    fn visit<C: Codec>(self) -> Self::Output {
+        let format = C::FORMAT;
+        let codes: Vec<C::Code> = self.0.iter().map(|&i| code(i)).collect();
+        let [mut x, mut y, mut z] = [(); 3].map(|()| vec![0.0; codes.len()]);
+        C::decode_soa(&codes, SoaMut { x: &mut x, y: &mut y, z: &mut z }).unwrap();
+        let by_vectors = |flips: [bool; 3]| {
+            let flipped = |c: &[f32], flip: bool| -> Vec<f32> {
+                c.iter().map(|&c| if flip { -c } else { c }).collect()
+            };
+            let [x, y, z] = [flipped(&x, flips[0]), flipped(&y, flips[1]), flipped(&z, flips[2])];
+            let mut again = codes.clone();
+            C::encode_soa_precise(Soa { x: &x, y: &y, z: &z }, &mut again).unwrap();
+            again
+        };
+        let operations: [Operation<C::Code>; 5] = [
+            ("canonical", C::canonical, C::canonical_slice, [false; 3]),
+            ("negated", C::negate, C::negate_slice, [true; 3]),
+            (
+                "mirrored in x",
+                |code| C::mirror(code, Axis::X),
+                |codes| C::mirror_slice(codes, Axis::X),
+                [true, false, false],
+            ),
+            (
+                "mirrored in y",
+                |code| C::mirror(code, Axis::Y),
+                |codes| C::mirror_slice(codes, Axis::Y),
+                [false, true, false],
+            ),
+            (
+                "mirrored in z",
+                |code| C::mirror(code, Axis::Z),
+                |codes| C::mirror_slice(codes, Axis::Z),
+                [false, false, true],
+            ),
+        ];
+        for (name, single, slice, flips) in operations {
+            let expected = by_vectors(flips);
+            let mut batch = codes.clone();
+            slice(&mut batch);
+            for ((&code, &batch), &expected) in codes.iter().zip(&batch).zip(&expected) {
+                let alone = single(code);
+                if batch != expected || alone != expected {
+                    return Err(format!(
+                        "{format}: {code:x?} {name} is {batch:x?} in a slice and {alone:x?} alone, not \
+                         {expected:x?}"
+                    ));
+                }
+            }
+        }
+        let canonical = by_vectors([false; 3]);
+        for (pair, canonical) in codes.windows(2).zip(canonical.windows(2)) {
+            let same = C::same_direction(pair[0], pair[1]);
+            if same != (canonical[0] == canonical[1]) || !C::same_direction(pair[0], canonical[0]) {
+                return Err(format!("{format}: {pair:x?} are wrongly of one direction or not"));
+            }
+        }
+        Ok(())
+    }
 }

@@ -5,7 +5,7 @@
 
 use bytemuck::{Zeroable, bytes_of, bytes_of_mut, cast_slice, cast_slice_mut, pod_read_unaligned};
 use unitpack::decode_table::{OctantTable, SignSymmetric};
-use unitpack::{Codec, Soa, SoaMut};
+use unitpack::{Axis, Codec, Soa, SoaMut};
 
 type Vector = [f32; 3];
 
@@ -18,6 +18,15 @@ pub struct Functions {
     decode: fn(&[u8], SoaMut<'_>),
     decode_one: fn(&[u8]) -> Vector,
     canonical: fn(&mut [u8]) -> bool,
+    same_direction: fn(&[u8], &[u8]) -> bool,
+    /// Canonical, negated, and mirrored in each axis.
+    in_place: [fn(&mut [u8]); 5],
+    in_place_one: [fn(&mut [u8]); 5],
+}
+
+/// Makes something of a code in its bytes.
+fn change<C: Codec>(code: &mut [u8], operation: impl Fn(C::Code) -> C::Code) {
+    code.copy_from_slice(bytes_of(&operation(pod_read_unaligned(code))));
 }
 
 impl Functions {
@@ -39,6 +48,21 @@ impl Functions {
                 code.copy_from_slice(bytes_of(&C::canonical(given)));
                 C::is_canonical(given)
             },
+            same_direction: |a, b| C::same_direction(pod_read_unaligned(a), pod_read_unaligned(b)),
+            in_place: [
+                |codes| C::canonical_slice(cast_slice_mut(codes)),
+                |codes| C::negate_slice(cast_slice_mut(codes)),
+                |codes| C::mirror_slice(cast_slice_mut(codes), Axis::X),
+                |codes| C::mirror_slice(cast_slice_mut(codes), Axis::Y),
+                |codes| C::mirror_slice(cast_slice_mut(codes), Axis::Z),
+            ],
+            in_place_one: [
+                |code| change::<C>(code, C::canonical),
+                |code| change::<C>(code, C::negate),
+                |code| change::<C>(code, |code| C::mirror(code, Axis::X)),
+                |code| change::<C>(code, |code| C::mirror(code, Axis::Y)),
+                |code| change::<C>(code, |code| C::mirror(code, Axis::Z)),
+            ],
         }
     }
 
@@ -81,16 +105,40 @@ impl Functions {
             assert_eq!(is_canonical, canonical == code, "{code:x?}");
             all.extend(canonical);
         }
+        let pairs = bytes.chunks_exact(self.size).zip(bytes.chunks_exact(self.size).skip(1));
+        let canonical = all.chunks(self.size).zip(all.chunks(self.size).skip(1));
+        for ((a, b), (canonical_a, canonical_b)) in pairs.zip(canonical) {
+            let same = canonical_a == canonical_b;
+            assert_eq!((self.same_direction)(a, b), same, "{a:x?} and {b:x?}");
+            assert!((self.same_direction)(a, canonical_a), "{a:x?}");
+        }
+        assert_eq!(self.in_place(0, bytes), all);
         all
     }
 
-    /// Of `decode`, `canonical`, `encode` and `encode_precise`. The last, which is slow, takes one
-    /// vector of so many. Each is shown to `check` at once, since most mutants fail at the first.
+    /// One of the operations on codes, in lanes and, every fourth, alone: both must agree.
+    fn in_place(&self, operation: usize, bytes: &[u8]) -> Vec<u8> {
+        let len = bytes.len() / self.size * self.size;
+        let mut codes = aligned(len);
+        let codes: &mut [u8] = &mut cast_slice_mut(&mut codes)[..len];
+        codes.copy_from_slice(&bytes[..len]);
+        (self.in_place[operation])(codes);
+        for (given, code) in bytes.chunks(self.size).zip(codes.chunks(self.size)).step_by(4) {
+            let mut one = given.to_vec();
+            (self.in_place_one[operation])(&mut one);
+            assert_eq!(one, code, "{given:x?}");
+        }
+        codes.to_vec()
+    }
+
+    /// Of `decode`, `canonical`, `encode`, `encode_precise`, and negated and mirrored codes. What is slow,
+    /// `encode_precise` above all, takes one of so many. Each is shown to `check` at once, since most mutants fail at the first.
     fn digests(&self, every: usize, mut check: impl FnMut(usize, u64)) {
         let decoded = self.decode(&codes());
         check(0, digest(decoded.iter().flatten().flat_map(|c| c.to_bits().to_le_bytes())));
         let codes: Vec<u8> = codes().chunks(12 * every).flat_map(|c| c[..12].to_vec()).collect();
         check(1, digest(self.canonical(&codes)));
+        check(4, digest([1, 2, 3, 4].into_iter().flat_map(|i| self.in_place(i, &codes))));
         // Beside the fixed vectors, points of the format, and what lies between two of them.
         let mut vectors = vectors();
         let points = decoded.iter().filter(|v| v.iter().all(|c| c.is_finite()));
@@ -233,21 +281,21 @@ fn codes() -> Vec<u8> {
 }
 
 /// What is digested, in this order.
-const OPERATIONS: [&str; 4] = ["decode", "canonical", "encode", "encode_precise"];
+const OPERATIONS: [&str; 5] = ["decode", "canonical", "encode", "encode_precise", "mirror"];
 
 /// Compares with the pinned digests. With PIN in the environment prints those of now, ready to
 /// paste.
-pub fn compare(pinned: &[(&str, Functions, usize, [u64; 4])]) {
+pub fn compare(pinned: &[(&str, Functions, usize, [u64; 5])]) {
     let pin = std::env::var_os("PIN").is_some();
     for &(name, functions, every, pinned) in pinned {
-        let mut now = [0; 4];
+        let mut now = [0; 5];
         functions.digests(every, |i, digest| {
             assert!(pin || digest == pinned[i], "{name}: {}", OPERATIONS[i]);
             now[i] = digest;
         });
         if pin {
-            let [a, b, c, d] = now;
-            println!("    {name} / {every} = [{a:#018X}, {b:#018X}, {c:#018X}, {d:#018X}],");
+            let digests = now.map(|digest| format!("{digest:#018X}")).join(", ");
+            println!("    {name} / {every} = [{digests}],");
         }
     }
 }
