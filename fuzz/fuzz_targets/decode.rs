@@ -1,10 +1,11 @@
-//! Every bit pattern decodes to the unit vector that the oracle gives, which has one canonical code.
+//! Every bit pattern decodes to the unit vector that the oracle gives, which has one canonical code; and it is
+//! negated and mirrored as that vector is.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 use unitpack_fuzz::common::every_code::{DECODE_ERROR, LENGTH_ERROR};
 use unitpack_fuzz::common::{angle, last_pattern, length, widen};
-use unitpack_fuzz::{AnyCodec, Bytes, ROUNDING, bits};
+use unitpack_fuzz::{AnyCodec, Bytes, Code, ROUNDING, bits};
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
@@ -12,7 +13,9 @@ fuzz_target!(|data: &[u8]| {
     let (format, oracle) = (codec.format, codec.oracle());
     let count = 1 + data.len() / format.code_size();
     let most = if codec.is_finer_than_f32() { 2 } else { 8 };
-    for code in codec.codes(&mut bytes, count.min(most)) {
+    let codes = codec.codes(&mut bytes, count.min(most));
+    operations(codec, &codes);
+    for code in codes {
         let v = (codec.decode)(code);
         let again = (codec.encode_precise)(v);
         if !codec.stores_direction() {
@@ -47,3 +50,28 @@ fuzz_target!(|data: &[u8]| {
         }
     }
 });
+
+fn operations(codec: &AnyCodec, codes: &[Code]) {
+    let format = codec.format;
+    // More than a block of lanes.
+    let many: Vec<Code> = codes.iter().copied().cycle().take(19).collect();
+    for operation in &codec.operations {
+        let expected = |&code: &Code| {
+            let v = (codec.decode)(code);
+            let i_th = |i: usize| if operation.negates[i] { -v[i] } else { v[i] };
+            (codec.encode_precise)([0, 1, 2].map(i_th))
+        };
+        let expected: Vec<Code> = codes.iter().map(expected).collect();
+        let one: Vec<Code> = codes.iter().map(|&code| (operation.one)(code)).collect();
+        assert_eq!(one, expected, "{format} {codes:x?}, {:?}", operation.negates);
+        let mut slice = many.clone();
+        (operation.slice)(&mut slice);
+        for (slice, one) in slice.iter().zip(one.iter().cycle()) {
+            assert_eq!(slice, one, "{format} {many:x?}, {:?}", operation.negates);
+        }
+    }
+    for (&a, &b) in codes.iter().zip(&codes[1..]) {
+        let same = (codec.canonical)(a) == (codec.canonical)(b);
+        assert_eq!((codec.same_direction)(a, b), same, "{format} {a:x} {b:x}");
+    }
+}

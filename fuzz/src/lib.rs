@@ -11,8 +11,8 @@ pub use common::every_code::{code as native, integer};
 use common::oracle::{Oracle, oracle};
 use unitpack::frame::{Frame, FrameSoa, FrameSoaMut};
 use unitpack::{
-    Codec, Float32x3, Format, LengthMismatch, Oct8, Oct16, Oct24, Oct32, Snorm16x3, Soa, SoaMut,
-    Visitor, transcode,
+    Axis, Codec, Float32x3, Format, LengthMismatch, Oct8, Oct16, Oct24, Oct32, Snorm16x3, Soa,
+    SoaMut, Visitor, transcode,
 };
 
 pub type Vector = [f32; 3];
@@ -166,6 +166,14 @@ pub struct Transcode {
     pub run: fn(&[Code], &mut [Code]) -> Outcome,
 }
 
+/// Something that is made of codes without vectors.
+pub struct Operation {
+    /// Which components of the vectors it negates.
+    pub negates: [bool; 3],
+    pub one: fn(Code) -> Code,
+    pub slice: fn(&mut [Code]),
+}
+
 /// A codec's functions, which are so compiled once and not for every target.
 pub struct AnyCodec {
     pub format: Format,
@@ -173,6 +181,8 @@ pub struct AnyCodec {
     pub encode_precise: fn(Vector) -> Code,
     pub decode: fn(Code) -> Vector,
     pub canonical: fn(Code) -> Code,
+    pub operations: [Operation; 5],
+    pub same_direction: fn(Code, Code) -> bool,
     pub encode_soa: fn(Soa<'_>, &mut [Code]) -> Outcome,
     pub encode_soa_precise: fn(Soa<'_>, &mut [Code]) -> Outcome,
     pub decode_soa: fn(&[Code], SoaMut<'_>) -> Outcome,
@@ -283,6 +293,34 @@ impl Visitor for Erase {
             encode_precise: |v| integer(C::encode_precise(v)),
             decode: |i| C::decode(native(i)),
             canonical: |i| integer(C::canonical(native(i))),
+            operations: [
+                Operation {
+                    negates: [false; 3],
+                    one: |i| integer(C::canonical(native(i))),
+                    slice: |codes| write_codes(codes, C::canonical_slice),
+                },
+                Operation {
+                    negates: [true; 3],
+                    one: |i| integer(C::negate(native(i))),
+                    slice: |codes| write_codes(codes, C::negate_slice),
+                },
+                Operation {
+                    negates: [true, false, false],
+                    one: |i| integer(C::mirror(native(i), Axis::X)),
+                    slice: |codes| write_codes(codes, |codes| C::mirror_slice(codes, Axis::X)),
+                },
+                Operation {
+                    negates: [false, true, false],
+                    one: |i| integer(C::mirror(native(i), Axis::Y)),
+                    slice: |codes| write_codes(codes, |codes| C::mirror_slice(codes, Axis::Y)),
+                },
+                Operation {
+                    negates: [false, false, true],
+                    one: |i| integer(C::mirror(native(i), Axis::Z)),
+                    slice: |codes| write_codes(codes, |codes| C::mirror_slice(codes, Axis::Z)),
+                },
+            ],
+            same_direction: |a, b| C::same_direction(native(a), native(b)),
             encode_soa: |v, codes| write_codes(codes, |codes| C::encode_soa(v, codes)),
             encode_soa_precise: |v, codes| {
                 write_codes(codes, |codes| C::encode_soa_precise(v, codes))

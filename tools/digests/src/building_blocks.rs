@@ -19,8 +19,10 @@ use unitpack::quaternion::{
 };
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{
-    AngularCube16, CodeInt, Codec, HemiOct16, Oct8, Oct16, Soa, SoaMut, SphericalFibonacci,
-    WarpedCube16, XyOnly16,
+    AngularCube16, Axis, CodeInt, Codec, Cube16, EqArea16, Fibonacci16, FrontOct16, HemiOct16,
+    Icosphere162, LatLong16D, Oct8, Oct16, OctUnorm8x2, Octant16, PhiZUnorm8x2, SignedOct21,
+    Snorm5x3, Soa, SoaMut, Spherical16, SphericalFibonacci, StereoConcentric16, WarpedCube16,
+    XyOnly16,
 };
 
 use crate::LEN;
@@ -71,6 +73,15 @@ pub fn report() {
     row.octant_table::<WarpedCube16>().octant_table::<AngularCube16>();
     // Tables only decode.
     line(format_args!("{:20} {:16} {:016x}", "octant-table", "", row.decode.finish()));
+    // One of each family: mirrored in x and y, and in z and negated.
+    let mut row = Row::new();
+    row.mirrored::<Oct16>().mirrored::<OctUnorm8x2>().mirrored::<FrontOct16>();
+    row.mirrored::<HemiOct16>().mirrored::<SignedOct21>().mirrored::<XyOnly16>();
+    row.mirrored::<Snorm5x3>().mirrored::<Spherical16>().mirrored::<PhiZUnorm8x2>();
+    row.mirrored::<EqArea16>().mirrored::<StereoConcentric16>().mirrored::<LatLong16D>();
+    row.mirrored::<Fibonacci16>().mirrored::<Cube16>().mirrored::<AngularCube16>();
+    row.mirrored::<Octant16>().mirrored::<Icosphere162>();
+    row.print("mirrored");
 }
 
 /// The line of one codec of frames.
@@ -113,6 +124,10 @@ impl Row {
 
     fn words(&mut self) -> [u32; LEN] {
         array::from_fn(|_| self.random.bits())
+    }
+
+    fn codes<C: CodeInt>(&mut self) -> [C; LEN] {
+        self.words().map(C::truncate)
     }
 
     fn scalar<S: Scalar>(&mut self) -> &mut Self {
@@ -313,6 +328,24 @@ impl Row {
         digest_codes(&codes.map(C::canonical), &mut self.decode);
     }
 
+    fn mirrored<C: Codec<Code: CodeInt>>(&mut self) -> &mut Self {
+        let codes = self.codes::<C::Code>();
+        let slice = |operation: fn(&mut [C::Code])| {
+            let mut codes = codes;
+            operation(&mut codes);
+            codes.map(C::Code::into)
+        };
+        self.encode.words(slice(|codes| C::mirror_slice(codes, Axis::X)));
+        self.encode.words(slice(|codes| C::mirror_slice(codes, Axis::Y)));
+        self.encode.words(codes.map(|code| C::mirror(code, Axis::X).into()));
+        self.encode.words(codes.map(|code| C::mirror(code, Axis::Y).into()));
+        self.decode.words(slice(|codes| C::mirror_slice(codes, Axis::Z)));
+        self.decode.words(slice(C::negate_slice));
+        self.decode.words(codes.map(|code| C::mirror(code, Axis::Z).into()));
+        self.decode.words(codes.map(|code| C::negate(code).into()));
+        self
+    }
+
     fn snorm12x2(&mut self) {
         let pairs: [[f32; 2]; LEN] = array::from_fn(|_| self.random.pair());
         let mut texels = [[0; 3]; LEN];
@@ -328,7 +361,7 @@ impl Row {
     }
 
     fn dense<const BITS: u32, C: CodeInt>(&mut self) -> &mut Self {
-        let mut codes = self.words().map(C::truncate);
+        let mut codes = self.codes::<C>();
         let mut bytes = [0; 4 * LEN];
         let bytes = &mut bytes[..dense_len(BITS, LEN)];
         pack_dense::<BITS, C>(&codes, bytes).expect("lengths that fit");

@@ -47,6 +47,12 @@ impl Visitor for Everything {
         black_box(<C as Codec>::decode(black_box(C::Code::zeroed())));
         black_box(<C as Codec>::canonical(black_box(C::Code::zeroed())));
         black_box(<C as Codec>::is_canonical(black_box(C::Code::zeroed())));
+        black_box(<C as Codec>::negate(black_box(C::Code::zeroed())));
+        black_box(<C as Codec>::mirror(black_box(C::Code::zeroed()), black_box(Axis::X)));
+        black_box(<C as Codec>::same_direction(
+            black_box(C::Code::zeroed()),
+            black_box(C::Code::zeroed()),
+        ));
 
         let mut buffers = Buffers::new();
         let mut codes = [C::Code::zeroed(); LEN];
@@ -57,6 +63,9 @@ impl Visitor for Everything {
         arrays_of_structures::<C, 3>(codes);
         arrays_of_structures::<C, 4>(codes);
         black_box(ErrorReport::of::<C>(buffers.read(), black_box(codes)).is_ok());
+        <C as Codec>::canonical_slice(black_box(codes));
+        <C as Codec>::negate_slice(black_box(codes));
+        <C as Codec>::mirror_slice(black_box(codes), black_box(Axis::Y));
 
         let bytes = &mut [0; 12 * LEN];
         black_box(Format::encode(C::FORMAT, buffers.read(), opaque(bytes)).is_ok());

@@ -18,14 +18,15 @@ use indicatif::{ProgressBar, ProgressStyle};
 use lexopt::prelude::*;
 use unitpack::Format;
 
-use crate::common::every_code::{self, BLOCK, Findings};
+use crate::common::every_code::{self, BLOCK, Findings, check_operations};
 use crate::common::oracle::oracle;
 use crate::common::{decode, encode, encode_precise};
 
 /// How many slices the codes of a format are cut into.
 const SLICES: u64 = 256;
 
-/// Of so many codes, one is compared with the oracle's canonical code and with encoding alone.
+/// Of so many codes, one is compared with the oracle's canonical code and with encoding alone, and in
+/// formats of more than 24 bits negated and mirrored.
 const EVERY: usize = 61;
 
 struct Options {
@@ -98,6 +99,9 @@ fn check(&(format, slice): &Task) -> Result<Findings, String> {
     for first in (0..codes).step_by(BLOCK as usize).skip(slice as usize).step_by(SLICES as usize) {
         let count = BLOCK.min(codes - first);
         findings.add(every_code::check(format, &oracle, first, count, EVERY)?);
+        let every = if format.bits() <= 24 { 1 } else { EVERY };
+        let some: Vec<u128> = (first..first + count).step_by(every).map(u128::from).collect();
+        check_operations(format, &some)?;
     }
     Ok(findings)
 }

@@ -16,7 +16,8 @@ Usage: proof COMMAND [OPTION]... [FORMAT]...
 Proves what unitpack promises of the formats named, or of all.
 
 codes     every code of formats of at most 32 bits: unit length, the exact direction, one result in a
-          batch and alone, and canonical when encoded again
+          batch and alone, and canonical when encoded again; negated and mirrored as its vector is, above
+          24 bits one code in 61
   --journal FILE   what was done, to go on from there [codes.journal]
   --output FILE    the table of the formats that are done [codes.csv]
   --slice K        only slice K modulo 256 of each format, without journal and table
