@@ -238,19 +238,19 @@ impl Row {
         let soa = Soa4 { x: &x, y: &y, z: &z, w: &w };
         let mut codes = [C::Code::zeroed(); LEN];
         C::encode_soa(soa, &mut codes).expect("lengths that fit");
-        self.codes::<C>(&codes);
+        digest_codes(&codes, &mut self.encode);
         C::encode_soa_precise(soa, &mut codes).expect("lengths that fit");
-        self.codes::<C>(&codes);
+        digest_codes(&codes, &mut self.encode);
         C::encode_aos(&q, &mut codes).expect("lengths that fit");
-        self.codes::<C>(&codes);
-        self.codes::<C>(&q.map(C::encode));
-        self.codes::<C>(&q.map(C::encode_precise));
+        digest_codes(&codes, &mut self.encode);
+        digest_codes(&q.map(C::encode), &mut self.encode);
+        digest_codes(&q.map(C::encode_precise), &mut self.encode);
 
         for code in &mut codes {
             self.random.codes(size_of::<C::Code>(), bytes_of_mut(code));
             *code = native::<C>(*code);
         }
-        self.codes::<C>(&codes.map(C::canonical));
+        digest_codes(&codes.map(C::canonical), &mut self.encode);
         let [mut x, mut y, mut z, mut w] = [[0.0; LEN]; 4];
         let soa = Soa4Mut { x: &mut x, y: &mut y, z: &mut z, w: &mut w };
         C::decode_soa(&codes, soa).expect("lengths that fit");
@@ -261,14 +261,6 @@ impl Row {
         C::decode_aos(&codes, &mut q).expect("lengths that fit");
         self.decode.floats(q.as_flattened());
         self.decode.floats(codes.map(C::decode).as_flattened());
-    }
-
-    /// Adds codes to what is encoded.
-    fn codes<C: QuaternionCodec>(&mut self, codes: &[C::Code]) {
-        for &code in codes {
-            // Little-endian, as they are read.
-            self.encode.bytes(bytes_of(&native::<C>(code)));
-        }
     }
 
     /// A frame of any kind: its tangent any, across the normal or parallel to it.
