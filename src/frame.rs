@@ -7,7 +7,8 @@
 //! basis    of the decoded normal n:  s = -1 if n.z < 0, else 1;  a = -1 / (s + n.z);  b = n.x n.y a
 //!          b1 = (1 + s n.x^2 a, s b, -s n.x)
 //!          b2 = (b, s + n.y^2 a, -n.y)
-//! encode   n = decode(oct(normal)), k = round(atan2(t.b2, t.b1) 2^A / (2 pi)) mod 2^A
+//! encode   t = tangent's part across the normal
+//!          n = decode(oct(normal)), k = round(atan2(t.b2, t.b1) 2^A / (2 pi)) mod 2^A
 //!          code = oct(normal), k in A bits, 1 if handedness < 0 else 0
 //! decode   normal = n, tangent = b1 cos(2 pi k / 2^A) + b2 sin(2 pi k / 2^A)
 //! ```
@@ -91,7 +92,7 @@ impl Frame {
     }
 
     /// By how many degrees the angle between normal and tangent, as encoders understand them, is not 90.
-    /// From 0 to 90; 90 too if the tangent is zero or NaN, as then none of it is encoded. Exact to 3e-5
+    /// From 0 to 90; 90 too if the tangent is zero or NaN, as then none of it is encoded. Exact to 4e-5
     /// degrees below 60, to 0.05 above.
     #[inline]
     pub fn skew_degrees(self) -> f32 {

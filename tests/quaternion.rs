@@ -12,6 +12,8 @@ use unitpack::quaternion::{
 
 type Quaternion = [f64; 4];
 
+const IDENTITY: Quaternion = [0.0, 0.0, 0.0, 1.0];
+
 /// How far off the nearest code rounding to `f32` may lead, as a chord in 4D.
 const ROUNDING: f64 = 3e-7;
 
@@ -63,7 +65,10 @@ trait Meaning: QuaternionCodec {
             (fields.map(|f| (FRAC_PI_4 * f / m).tan()), 1.0)
         } else {
             let rest = 2.0 * m * m - fields.iter().map(|f| f * f).sum::<f64>();
-            (fields, rest.max(0.0).sqrt())
+            if rest < 0.0 {
+                return IDENTITY;
+            }
+            (fields, rest.sqrt())
         };
         let mut others = others.into_iter();
         unit([0, 1, 2, 3].map(|i| if i == left_out { rest } else { others.next().unwrap() }))
@@ -434,11 +439,9 @@ fn only_canonical_codes<C: Meaning>() {
         assert_eq!(C::is_canonical(code), canonical == code, "{} {code:x?}", C::NAME);
         assert_eq!(C::canonical(canonical), canonical, "{} {code:x?}", C::NAME);
         let (point, other) = (C::point(code), C::point(canonical));
-        if C::is_emitted(point) {
-            // The same rotation.
-            let off = chord(C::quaternion(point), C::quaternion(other));
-            assert!(off < 1e-12, "{} {code:x?}: {point:?} and {other:?}", C::NAME);
-        }
+        // The same rotation.
+        let off = chord(C::quaternion(point), C::quaternion(other));
+        assert!(off < 1e-12, "{} {code:x?}: {point:?} and {other:?}", C::NAME);
         changed += u32::from(canonical != C::of_point(point));
         // What comes back is it, or nearer than f32 can tell.
         let q = C::decode(code);
@@ -739,7 +742,9 @@ fn published<C: Meaning>(mean: [f64; 2]) {
         for &(mut least, mut q) in worst[e].iter().take(60) {
             let mut reach = 0.3 / C::M as f64;
             for _ in 0..600 {
-                let next = unit(q.map(|c| c + reach * (rng.unit() - 0.5)));
+                // Of any length, as rounding depends on it.
+                let length = 1.0 + 0.01 * rng.unit();
+                let next = unit(q.map(|c| c + reach * (rng.unit() - 0.5))).map(|c| c * length);
                 let error = errors::<C>(next)[e];
                 if error > least {
                     (least, q) = (error, next);
@@ -756,7 +761,9 @@ fn published<C: Meaning>(mean: [f64; 2]) {
             at_random[e]
         );
         assert!(greatest <= bounds[e], "{} {e}: {greatest} above its bound", C::NAME);
-        assert!(greatest > 0.99 * bounds[e], "{} {e}: {greatest} far below", C::NAME);
+        // Where f32 rounding is a part of the greatest, it is rarely met.
+        let tight = if C::BITS == 62 { 0.9 } else { 0.99 };
+        assert!(greatest > tight * bounds[e], "{} {e}: {greatest} far below", C::NAME);
         assert!((found / mean[e] - 1.0).abs() < 0.005, "{} {e}: mean {found}", C::NAME);
     }
 }

@@ -60,7 +60,10 @@ impl Point {
         let (side, rest) = if tangents {
             (self.fields.map(|f| (FRAC_PI_4 * f as f64 / self.m as f64).tan()), 1.0)
         } else {
-            (self.fields.map(|f| f as f64), (self.rest().max(0) as f64).sqrt())
+            if self.rest() < 0 {
+                return [0.0, 0.0, 0.0, 1.0];
+            }
+            (self.fields.map(|f| f as f64), (self.rest() as f64).sqrt())
         };
         let mut q = [side[0], side[1], side[2], 0.0];
         q.copy_within(self.left_out..3, self.left_out + 1);

@@ -31,7 +31,7 @@ pub(crate) struct Fibonacci<const BITS: u32>;
 /// spiral from +Z to -Z. Point i has z = 1 - (2 i + 1) / N and the azimuth 2 pi i / golden ratio, whose turns are
 /// counted in units of 2^-32.
 ///
-/// The greatest error is about 2.8 / sqrt(N) radians, the mean 1.35 / sqrt(N). [`Fibonacci16`](crate::Fibonacci16) and
+/// The greatest error is below 2.8 / sqrt(N) radians from two points on, the mean about 1.35 / sqrt(N). [`Fibonacci16`](crate::Fibonacci16) and
 /// [`Fibonacci24`](crate::Fibonacci24) are the same of 2^16 and 2^24 points.
 ///
 /// ```

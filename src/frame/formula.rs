@@ -26,7 +26,7 @@ pub(crate) struct Prepared<L: Lane> {
     pub(crate) normal: [L; 3],
     /// Its unit vector.
     pub(crate) unit_normal: [L; 3],
-    /// A unit vector.
+    /// Its part across the normal.
     tangent: [L; 3],
     /// Whether there is a tangent that is not parallel to the normal.
     across: L::Mask,
@@ -52,7 +52,10 @@ impl<L: Lane> Prepared<L> {
         Prepared {
             normal,
             unit_normal,
-            tangent,
+            tangent: [0, 1, 2].each(
+                #[inline(always)]
+                |i: usize| tangent[i] - along * unit_normal[i],
+            ),
             across: given & L::splat(LEAST).lt(across),
             sin_squared: L::select(given, (along * along).lesser(one), one),
             negative: handedness.lt(zero),

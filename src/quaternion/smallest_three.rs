@@ -4,19 +4,22 @@
 //! encode   c = the first component of the greatest magnitude;  q = -q if q.c < 0
 //!          (i, j, l) = round(sqrt(2) M (the three others) / |q|),   M = 2^(b-1) - 1
 //! decode   n = 2 M^2 - i^2 - j^2 - l^2
-//!          q.c = sqrt(n) if n > 0, else 0;   the three others = (i, j, l);   q /= |q|
+//!          q.c = sqrt(n);   the three others = (i, j, l);   q /= sqrt(2) M
 //! ```
+//!
+//! Codes with n < 0, whose fields are longer than a unit quaternion, are given by no encoder; they read as
+//! the identity.
 //!
 //! Every chart reaches beyond the rotations whose greatest component it leaves out: where no component
 //! exceeds sqrt(1/2), all four have codes. With T = sqrt(2) M q / |q|, what a code is off is
 //! |(i, j, l) - (the three others of T)|^2 + (sqrt(n) - T.c)^2, in steps. In the chart of the greatest
 //! component one of the eight roundings down or up is never off by more than about a step, and a code
 //! that is nearer has no component off by a step or more: so it is one of the eight roundings of some
-//! chart, and the nearest of those 32 is the nearest of all codes with n >= 0.
+//! chart, and the nearest of those 32 is the nearest of all codes.
 //!
 //! Canonical: codes mean one rotation exactly where n is a square, so that the four integers are a
 //! quaternion in other charts too; the chart of the greatest component is the one emitted, the first of
-//! equals. Codes with n < 0 are never emitted; for them it is the code nearest to what they decode to.
+//! equals.
 
 use core::marker::PhantomData;
 
@@ -64,7 +67,16 @@ impl<Y: Layout> SmallestThree<Y> {
         (high * L::splat(1_048_576.0) + rest, low)
     }
 
-    /// Of the codes that mean one rotation the one that is emitted. Any if n < 0.
+    /// What a code stands for.
+    #[inline(always)]
+    fn point<L: Lane>(code: Code<Y, L>) -> Point<L> {
+        let point = Y::unpack::<L>(code);
+        let beyond = Self::left_out_squared::<L>(point.0).0.lt(L::zero());
+        let identity = ([L::Int::splat(0); 3], L::Int::splat(3));
+        select_point::<L>(beyond, identity, point)
+    }
+
+    /// Of the codes that mean one rotation the one that is emitted.
     #[inline(always)]
     fn canonical_point<L: Lane>((fields, index): Point<L>) -> Point<L> {
         let (n, low) = Self::left_out_squared::<L>(fields);
@@ -75,7 +87,7 @@ impl<Y: Layout> SmallestThree<Y> {
         select_point::<L>(whole, in_chart_of_largest::<L>(q), (fields, index))
     }
 
-    /// The nearest of all codes with n >= 0, canonical.
+    /// The nearest of all codes, canonical.
     #[inline(always)]
     fn nearest<L: Lane>(q: [L; 4]) -> Point<L> {
         let scale = inv_sqrt(length_squared(q)) * L::splat(Self::STEPS);
@@ -165,38 +177,23 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
 
     #[inline(always)]
     fn decode<L: Lane>(code: Code<Y, L>) -> [L; 4] {
-        let (fields, index) = Y::unpack::<L>(code);
+        let (fields, index) = Self::point::<L>(code);
         let (n, low) = Self::left_out_squared::<L>(fields);
-        let square = L::splat(Self::SQUARE as f32);
-        let per_square = L::splat(1.0 / Self::SQUARE as f32);
-        let positive = L::zero().lt(n);
-        // One root for both: of what is left out or, if that is 0, over the length of the others.
-        let radicand = L::select(positive, n, square - n) * per_square;
-        let inverse = inv_sqrt(radicand);
-        let root = L::select(positive, radicand * inverse, L::zero());
+        let root = sqrt(n * L::splat(1.0 / Self::SQUARE as f32));
         // Whole numbers of steps are exact, so that it does not matter which component is left out.
         let whole = (root * L::splat(Self::STEPS)).round_int();
         let exact = L::from_int(whole) * L::splat(Self::STEP);
         let left_out = L::Int::select((whole * whole).eq(low), exact.to_bits(), root.to_bits());
-        let scale = L::select(positive, L::splat(1.0), inverse);
         let others = fields.each(
             #[inline(always)]
-            |i| L::from_int(i) * L::splat(Self::STEP) * scale,
+            |i| L::from_int(i) * L::splat(Self::STEP),
         );
         LeftOut::<L>::new(index).insert(others, L::from_bits(left_out), L::select)
     }
 
     #[inline(always)]
     fn canonical<L: Lane>(code: Code<Y, L>) -> Code<Y, L> {
-        let point = Y::unpack::<L>(code);
-        let (n, _) = Self::left_out_squared::<L>(point.0);
-        let beyond = n.lt(L::zero());
-        let mut canonical = Self::canonical_point::<L>(point);
-        if beyond.any() {
-            let nearest = Self::nearest(Self::decode::<L>(code));
-            canonical = select_point::<L>(beyond, nearest, canonical);
-        }
-        Y::pack::<L>(canonical)
+        Y::pack::<L>(Self::canonical_point::<L>(Self::point::<L>(code)))
     }
 }
 

@@ -43,7 +43,8 @@ pub fn part_across(frame: Frame, normal: [f64; 3]) -> Option<[f64; 3]> {
     let tangent = direction(frame.tangent)?;
     let own = direction(frame.normal).unwrap_or([0.0, 0.0, 1.0]);
     let sine = length(cross(own, tangent));
-    (sine > 2e-6).then(|| plus(tangent, scaled(normal, -dot(tangent, normal))))
+    let across = |v, normal| plus(v, scaled(normal, -dot(v, normal)));
+    (sine > 2e-6).then(|| across(across(tangent, own), normal))
 }
 
 /// The frame of an octahedral code of two times `oct` bits and an angle.

@@ -212,7 +212,7 @@ fn the_cheapest_format_is_found() {
     assert_eq!(
         found.map(Format::cheapest)[4..],
         [
-            Some(WarpedOct24),
+            Some(SignedOct23),
             Some(AngularCube8),
             Some(AngularCube8),
             Some(AngularCube8),
