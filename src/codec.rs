@@ -43,16 +43,16 @@ pub use fibonacci::SphericalFibonacci;
 /// direction mirrored in Z falls below the rim, and so is put on it.
 ///
 /// Where a mirror image is a point of the format, it is exact: doing it twice gives the canonical code again, and negating
-/// is mirroring in X, Y and Z in turn. It is found in integers, in a few instructions, except for the following, which decode and
-/// encode after all and give the nearest point:
+/// is mirroring in X, Y and Z in turn. It is found in integers, without decoding, but for these, which decode, encode
+/// precisely, and so give the nearest point, in that time:
 ///
-/// - z: HemiOct, XYOnly, frontoct, quadfrontoct, oct-unorm. x: phi-z and, but for the poles, latlong and the parallels of latlongD that
-///   have an odd number of points. Negating does both.
-/// - x and z: of disk projections as they are, without a stretch, codes whose image would be in column 0 of the lower
-///   hemisphere, which does not exist.
-/// - All: fibonacci, and snorm16x3, xyz-unorm16x3 and float16x3, whose images are exact up to `f32` rounding.
+/// - in Z, and negated: HemiOct, XYOnly, frontoct, quadfrontoct and oct-unorm,
+/// - in X, and negated: phi-z, latlong, and latlongD on parallels with an odd number of points,
+/// - in X and Z, and negated: of disk projections as they are, without a stretch, the few codes whose image would be in
+///   column 0 of the lower hemisphere, which does not exist,
+/// - fibonacci; and snorm16x3, xyz-unorm16x3 and float16x3, where images are exact up to `f32` rounding.
 ///
-/// Half way between two points, as in x of phi-z and latlong, rounding decides. `Float32x3` flips signs, of NaN too.
+/// Half way between two points, as in X of phi-z and latlong, `f32` rounding decides. `Float32x3` flips signs, those of NaN too.
 pub trait Codec: Copy + 'static {
     /// One packed vector. Its bits are laid out as the codec's page says.
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;

@@ -55,10 +55,15 @@ impl<const BITS: u32> Formula for HemiOct<BITS> {
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         let max = L::Int::splat(Self::M);
-        closest_of_four(v, Self::project(v), |params| {
-            let code = pack_snorm2::<BITS, L>(params.each(|p| p.max(-max).min(max)));
-            (code, Self::decode::<L>(code))
-        })
+        closest_of_four(
+            v,
+            Self::project(v),
+            #[inline(always)]
+            |params| {
+                let code = pack_snorm2::<BITS, L>(params.each(|p| p.max(-max).min(max)));
+                (code, Self::decode::<L>(code))
+            },
+        )
     }
 
     #[inline(always)]

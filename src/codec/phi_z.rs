@@ -65,10 +65,15 @@ impl<const BITS: u32> Formula for PhiZ<BITS> {
 
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        closest_of_four(v, Self::params(v), |params| {
-            let params = Self::canonical_params::<L>(params);
-            (pack2::<BITS, L>(params), Self::vector::<L>(params))
-        })
+        closest_of_four(
+            v,
+            Self::params(v),
+            #[inline(always)]
+            |params| {
+                let params = Self::canonical_params::<L>(params);
+                (pack2::<BITS, L>(params), Self::vector::<L>(params))
+            },
+        )
     }
 
     #[inline(always)]

@@ -54,10 +54,15 @@ impl<const BITS: u32> Formula for Spherical<BITS> {
     #[inline(always)]
     fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
         let max = L::Int::splat(Self::M);
-        closest_of_four(v, Self::angles(v), |[u, w]| {
-            let code = Self::pack::<L>([u.max(-max).min(max), w]);
-            (code, Self::decode::<L>(code))
-        })
+        closest_of_four(
+            v,
+            Self::angles(v),
+            #[inline(always)]
+            |[u, w]| {
+                let code = Self::pack::<L>([u.max(-max).min(max), w]);
+                (code, Self::decode::<L>(code))
+            },
+        )
     }
 
     #[inline(always)]
