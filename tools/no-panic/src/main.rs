@@ -326,21 +326,22 @@ fn dithered<C: Codec>() {
     let dither = Dither::new(black_box(1));
     let index = black_box(7);
     let v = black_box([0.0, 0.6, 0.8]);
-    black_box(dither.decode::<C>(index, dither.encode::<C>(index, v)));
-    black_box(dither.encode_precise::<C>(index, v));
+    let code = Dither::encode::<C>(dither, index, v);
+    black_box(Dither::decode::<C>(dither, index, code));
+    black_box(Dither::encode_precise::<C>(dither, index, v));
     let (mut buffers, mut codes) = (Buffers::new(), [C::Code::zeroed(); LEN]);
     let codes = opaque(&mut codes);
-    black_box(dither.encode_soa::<C>(index, buffers.read(), codes).is_ok());
-    black_box(dither.encode_soa_precise::<C>(index, buffers.read(), codes).is_ok());
-    black_box(dither.decode_soa::<C>(index, codes, buffers.write()).is_ok());
+    black_box(Dither::encode_soa::<C>(dither, index, buffers.read(), codes).is_ok());
+    black_box(Dither::encode_soa_precise::<C>(dither, index, buffers.read(), codes).is_ok());
+    black_box(Dither::decode_soa::<C>(dither, index, codes, buffers.write()).is_ok());
 }
 
 fn stochastic<C: StochasticRounding>() {
     let dither = Dither::new(black_box(1));
-    black_box(dither.encode_stochastic::<C>(black_box(7), black_box([0.0, 0.6, 0.8])));
+    black_box(Dither::encode_stochastic::<C>(dither, black_box(7), black_box([0.0, 0.6, 0.8])));
     let (mut buffers, mut codes) = (Buffers::new(), [C::Code::zeroed(); LEN]);
     let codes = opaque(&mut codes);
-    black_box(dither.encode_soa_stochastic::<C>(7, buffers.read(), codes).is_ok());
+    black_box(Dither::encode_soa_stochastic::<C>(dither, 7, buffers.read(), codes).is_ok());
 }
 
 fn all_dithered() {
@@ -361,12 +362,13 @@ fn all_dithered() {
 
 fn fibonacci() {
     let Some(points) = SphericalFibonacci::new(black_box(1000)) else { return };
-    black_box(points.points());
-    black_box(points.decode(points.encode(black_box([0.0, 0.6, 0.8]))));
+    black_box(SphericalFibonacci::points(points));
+    let index = SphericalFibonacci::encode(points, black_box([0.0, 0.6, 0.8]));
+    black_box(SphericalFibonacci::decode(points, index));
     let (mut buffers, mut indices) = (Buffers::new(), [0; LEN]);
     let indices = opaque(&mut indices);
-    black_box(points.encode_soa(buffers.read(), indices).is_ok());
-    black_box(points.decode_soa(indices, buffers.write()).is_ok());
+    black_box(SphericalFibonacci::encode_soa(points, buffers.read(), indices).is_ok());
+    black_box(SphericalFibonacci::decode_soa(points, indices, buffers.write()).is_ok());
 }
 
 fn quaternions<C: QuaternionCodec>() {
