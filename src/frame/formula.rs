@@ -3,7 +3,7 @@
 use bytemuck::Pod;
 
 use crate::batch::Encoder;
-use crate::formula::{direction, magnitude};
+use crate::formula::{One, Stored, Two, direction, magnitude};
 use crate::lane::{Each, Lane, LaneInt};
 use crate::math;
 
@@ -126,26 +126,22 @@ pub(crate) trait StoredFrame: Pod {
 impl StoredFrame for u32 {
     #[inline(always)]
     fn load<L: Lane>(block: &L::Block<Self>) -> [L::Int; 2] {
-        [L::load_int(block, |code| code), L::Int::splat(0)]
+        [<Self as Stored<One>>::load::<L>(block), L::Int::splat(0)]
     }
     #[inline(always)]
     fn store<L: Lane>([low, _]: [L::Int; 2], block: &mut L::Block<Self>) {
-        L::store_int(low, block, |code, i| *code = i);
+        <Self as Stored<One>>::store::<L>(low, block);
     }
 }
 
 impl StoredFrame for u64 {
     #[inline(always)]
     fn load<L: Lane>(block: &L::Block<Self>) -> [L::Int; 2] {
-        [
-            L::load_int(block, |code: u64| code as u32),
-            L::load_int(block, |code: u64| (code >> 32) as u32),
-        ]
+        <Self as Stored<Two>>::load::<L>(block)
     }
     #[inline(always)]
-    fn store<L: Lane>([low, high]: [L::Int; 2], block: &mut L::Block<Self>) {
-        L::store_int(low, block, |code, i| *code = u64::from(i));
-        L::store_int(high, block, |code, i| *code |= u64::from(i) << 32);
+    fn store<L: Lane>(code: [L::Int; 2], block: &mut L::Block<Self>) {
+        <Self as Stored<Two>>::store::<L>(code, block);
     }
 }
 
