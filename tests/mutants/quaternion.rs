@@ -3,42 +3,24 @@
 mod shared;
 
 use bytemuck::{Pod, Zeroable, bytes_of, bytes_of_mut};
-use shared::{Random, digest};
+use shared::{ODD, Random, SIMPLE, digest};
 use unitpack::LengthMismatch;
 use unitpack::quaternion::*;
 
 /// Quaternions of every kind, in an order that brings different kinds into one block of lanes.
 fn quaternions<C: QuaternionCodec>() -> Vec<[f32; 4]> {
-    const ODD: [f32; 14] = [
-        0.0,
-        -0.0,
-        1.0,
-        -1.0,
-        1e-45,
-        -1e-39,
-        1e-33,
-        1e-20,
-        -3e-13,
-        1e13,
-        -1e30,
-        f32::MAX,
-        f32::INFINITY,
-        f32::NEG_INFINITY,
-    ];
-    const SIMPLE: [f32; 8] = [0.0, -0.0, 1.0, -1.0, 1.0, -1.0, 0.5, -2.0];
     let mut random = Random(1);
-    let pick = |random: &mut Random, from: &[f32]| from[random.bits() as usize % from.len()];
     let points = decoded::<C>(&codes::<C>(), 1);
     (0..1003)
         .map(|i| {
             let mut q = [0; 4].map(|_| random.signed());
             let at = random.bits() as usize % 4;
             match i % 9 {
-                0 => q = q.map(|_| pick(&mut random, &SIMPLE)),
-                1 => q = q.map(|_| pick(&mut random, &ODD)),
+                0 => q = q.map(|_| random.pick(&SIMPLE)),
+                1 => q = q.map(|_| random.pick(&ODD)),
                 2 => q[at] = if i % 2 == 0 { f32::NAN } else { 10.0 },
                 // Two components about equal.
-                3 => q[at] = q[(at + 1) % 4] * pick(&mut random, &[1.0, -1.0, 1.0001, 0.998]),
+                3 => q[at] = q[(at + 1) % 4] * random.pick(&[1.0, -1.0, 1.0001, 0.998]),
                 // All four, where all charts have codes.
                 4 => q = q.map(|c| 1.0 + 0.02 * c),
                 // On the grid, and half way.
@@ -50,7 +32,7 @@ fn quaternions<C: QuaternionCodec>() -> Vec<[f32; 4]> {
                 // One vanishes, and the others are in a corner of its chart.
                 7 => {
                     q = q.map(|c| 0.577f32.copysign(c) + 0.05 * c);
-                    q[at] = pick(&mut random, &[0.0, 1e-5, 1e-3, -1e-3]);
+                    q[at] = random.pick(&[0.0, 1e-5, 1e-3, -1e-3]);
                 }
                 _ => {}
             }

@@ -183,10 +183,31 @@ impl Random {
         (self.bits() >> 8) as f32 / 8_388_608.0 - 1.0
     }
 
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.bits() as usize % from.len()]
     }
 }
+
+/// Components so simple that they fall on edges, corners and diagonals.
+pub const SIMPLE: [f32; 8] = [0.0, -0.0, 1.0, -1.0, 1.0, -1.0, 0.5, -2.0];
+
+/// Components of what is no direction, or hardly one.
+pub const ODD: [f32; 14] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    1e-45,
+    -1e-39,
+    1e-33,
+    1e-20,
+    -3e-13,
+    1e13,
+    -1e30,
+    f32::MAX,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+];
 
 /// Vectors of every kind, in an order that brings different kinds into one block of lanes.
 pub fn vectors() -> Vec<Vector> {
@@ -197,25 +218,9 @@ pub fn vectors() -> Vec<Vector> {
         vectors.extend([axis, axis.map(|c| -c)]);
     }
     for _ in 0..96 {
-        vectors.push([0; 3].map(|_| random.pick(&[0.0, -0.0, 1.0, -1.0, 1.0, -1.0, 0.5, -2.0])));
+        vectors.push([0; 3].map(|_| random.pick(&SIMPLE)));
     }
     // What is no direction, or hardly one.
-    const ODD: [f32; 14] = [
-        0.0,
-        -0.0,
-        1.0,
-        -1.0,
-        1e-45,
-        -1e-39,
-        1e-33,
-        1e-20,
-        -3e-13,
-        1e13,
-        -1e30,
-        f32::MAX,
-        f32::INFINITY,
-        f32::NEG_INFINITY,
-    ];
     for i in 0..96 {
         let v = [0; 3].map(|_| random.pick(&ODD));
         vectors.push(if i % 16 == 0 { [v[0], f32::NAN, v[2]] } else { v });
