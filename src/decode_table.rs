@@ -39,7 +39,7 @@ use bytemuck::Zeroable;
 
 use crate::batch::{self, Decoder, STAGE};
 use crate::formula::{Behind, One, Stored, Symmetric};
-use crate::lane::{Each, Lane, LaneMask, look_up3};
+use crate::simd::{Each, Simd, SimdMask, look_up3};
 use crate::*;
 
 /// Every decoded vector of the codec `C`, which has at most 16 bits.
@@ -306,10 +306,10 @@ impl<'a, F> Mirrored<'a, F> {
 
 impl<F: Symmetric, C: Stored<One>> Decoder<C> for Mirrored<'_, F> {
     #[inline(always)]
-    fn decode<L: Lane>(&self, codes: &L::Block<C>) -> [L; 3] {
-        let (index, flips) = F::fold::<L>(C::load::<L>(codes));
-        let v = L::gather3(self.octant, index);
-        [0, 1, 2].each(|i: usize| L::select(flips[i], -v[i], v[i]))
+    fn decode<V: Simd>(&self, codes: &V::Block<C>) -> [V; 3] {
+        let (index, flips) = F::fold::<V>(C::load::<V>(codes));
+        let v = V::gather3(self.octant, index);
+        [0, 1, 2].each(|i: usize| V::select(flips[i], -v[i], v[i]))
     }
 }
 

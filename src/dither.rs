@@ -51,10 +51,10 @@ use core::num::Wrapping;
 use bytemuck::Zeroable;
 
 use crate::batch::{STAGE, Stage};
-use crate::dispatch::{Job, dispatch};
 use crate::formula::{Behind, Lattice, One, Stored, direction};
-use crate::lane::{Each, Lane, LaneInt, inlined};
-use crate::math::{length_squared, normalize};
+use crate::simd::dispatch::{Job, dispatch};
+use crate::simd::math::{length_squared, normalize};
+use crate::simd::{Each, Simd, SimdInt, inlined};
 use crate::*;
 
 /// A sequence of small rotations and of random numbers, one of each for every element. See the
@@ -270,23 +270,23 @@ impl Rotation {
     }
 
     #[inline(always)]
-    fn turn<L: Lane>(self, v: [L; 3], number: L::Int) -> [L; 3] {
+    fn turn<V: Simd>(self, v: [V; 3], number: V::Int) -> [V; 3] {
         let [x, y, z] = direction(v);
         let width = if self.back { -self.width } else { self.width };
-        let scale = L::splat(width * (1.0 / 2_147_483_648.0));
+        let scale = V::splat(width * (1.0 / 2_147_483_648.0));
         let [a, b, c] = Self::STEPS.each(
             #[inline(always)]
-            |step| L::from_int(number * L::Int::splat(step)) * scale,
+            |step| V::from_int(number * V::Int::splat(step)) * scale,
         );
-        let [a, b] = if self.upright { [L::zero(); 2] } else { [a, b] };
+        let [a, b] = if self.upright { [V::zero(); 2] } else { [a, b] };
         // v + 2 u x (v + u x v) / (1 + |u|^2).
         let cross = inlined(
             #[inline(always)]
-            |[x, y, z]: [L; 3]| [b * z - c * y, c * x - a * z, a * y - b * x],
+            |[x, y, z]: [V; 3]| [b * z - c * y, c * x - a * z, a * y - b * x],
         );
         let [p, q, r] = cross([x, y, z]);
         let turned = cross([x + p, y + q, z + r]);
-        let k = L::splat(2.0) / (L::splat(1.0) + length_squared([a, b, c]));
+        let k = V::splat(2.0) / (V::splat(1.0) + length_squared([a, b, c]));
         let v = [x + k * turned[0], y + k * turned[1], z + k * turned[2]];
         if self.back { normalize(v) } else { v }
     }
@@ -306,18 +306,18 @@ struct Turn<'a> {
 
 impl Job for Turn<'_> {
     #[inline(always)]
-    fn run<L: Lane>(self) -> Self {
+    fn run<V: Simd>(self) -> Self {
         let Turn { rotation, numbers, v: Soa { x, y, z }, to } = self;
-        let ((xs, x), (ys, y), (zs, z)) = (L::split(x), L::split(y), L::split(z));
-        let (blocks, numbers) = L::split(numbers);
+        let ((xs, x), (ys, y), (zs, z)) = (V::split(x), V::split(y), V::split(z));
+        let (blocks, numbers) = V::split(numbers);
         let ((to_xs, to_x), (to_ys, to_y), (to_zs, to_z)) =
-            (L::split_mut(to.x), L::split_mut(to.y), L::split_mut(to.z));
+            (V::split_mut(to.x), V::split_mut(to.y), V::split_mut(to.z));
         let from = xs.iter().zip(ys).zip(zs).zip(blocks);
         for ((((x, y), z), number), ((to_x, to_y), to_z)) in
             from.zip(to_xs.iter_mut().zip(to_ys).zip(to_zs))
         {
-            let v = [L::load(x), L::load(y), L::load(z)];
-            let v = rotation.turn::<L>(v, L::load_int(number, |number| number));
+            let v = [V::load(x), V::load(y), V::load(z)];
+            let v = rotation.turn::<V>(v, V::load_int(number, |number| number));
             v[0].store(to_x);
             v[1].store(to_y);
             v[2].store(to_z);
@@ -375,27 +375,27 @@ struct EncodeOneOf<'a, F, C> {
 
 impl<F: Lattice, C: Stored<One>> Job for EncodeOneOf<'_, F, C> {
     #[inline(always)]
-    fn run<L: Lane>(self) -> Self {
+    fn run<V: Simd>(self) -> Self {
         let EncodeOneOf { v: Soa { x, y, z }, random, codes, formula } = self;
-        let ((xs, x), (ys, y), (zs, z)) = (L::split(x), L::split(y), L::split(z));
-        let ((randoms, random), (blocks, codes)) = (L::split(random), L::split_mut(codes));
+        let ((xs, x), (ys, y), (zs, z)) = (V::split(x), V::split(y), V::split(z));
+        let ((randoms, random), (blocks, codes)) = (V::split(random), V::split_mut(codes));
         for ((((x, y), z), random), codes) in xs.iter().zip(ys).zip(zs).zip(randoms).zip(blocks) {
-            encode_block::<F, C, L>(x, y, z, random, codes);
+            encode_block::<F, C, V>(x, y, z, random, codes);
         }
         EncodeOneOf { v: Soa { x, y, z }, random, codes, formula }
     }
 }
 
 #[inline(always)]
-fn encode_block<F: Lattice, C: Stored<One>, L: Lane>(
-    x: &L::Block<f32>,
-    y: &L::Block<f32>,
-    z: &L::Block<f32>,
-    random: &L::Block<u32>,
-    codes: &mut L::Block<C>,
+fn encode_block<F: Lattice, C: Stored<One>, V: Simd>(
+    x: &V::Block<f32>,
+    y: &V::Block<f32>,
+    z: &V::Block<f32>,
+    random: &V::Block<u32>,
+    codes: &mut V::Block<C>,
 ) {
-    let v = F::prepare([L::load(x), L::load(y), L::load(z)]);
+    let v = F::prepare([V::load(x), V::load(y), V::load(z)]);
     // From 0 to 1, 1 excluded.
-    let t = L::from_int(L::load_int(random, |bits| bits >> 8)) * L::splat(1.0 / 16_777_216.0);
-    C::store::<L>(F::encode_one_of(v, t), codes);
+    let t = V::from_int(V::load_int(random, |bits| bits >> 8)) * V::splat(1.0 / 16_777_216.0);
+    C::store::<V>(F::encode_one_of(v, t), codes);
 }

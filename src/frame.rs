@@ -88,7 +88,7 @@ impl Frame {
     /// handedness (normal x tangent): the third vector, as glTF and most programs define it.
     #[inline]
     pub fn bitangent(self) -> [f32; 3] {
-        crate::math::cross(self.normal, self.tangent).map(|c| self.handedness * c)
+        crate::simd::math::cross(self.normal, self.tangent).map(|c| self.handedness * c)
     }
 
     /// By how many degrees the angle between normal and tangent, as encoders understand them, is not 90.

@@ -3,13 +3,15 @@
 //! Source: the closing remark of Cigolle et al., "A Survey of Efficient Representations for
 //! Independent Unit Vectors", 2014.
 
-use crate::CodeInt;
-use crate::code_int::holds;
-use crate::dispatch::{Job, dispatch};
+use crate::batch::code_int::CodeInt;
+use crate::batch::code_int::holds;
 use crate::error::LengthMismatch;
 use crate::formula::direction;
-use crate::lane::{Each, Lane, LaneInt};
-use crate::math::{angle_in_octant, sin_cos_of_half, sin_cos_quarter_turns, turn_by_quarters};
+use crate::simd::dispatch::{Job, dispatch};
+use crate::simd::math::{
+    angle_in_octant, sin_cos_of_half, sin_cos_quarter_turns, turn_by_quarters,
+};
+use crate::simd::{Each, Simd, SimdInt};
 
 /// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
 ///
@@ -139,25 +141,25 @@ impl<const BITS: u32> Angle<BITS> {
     }
 
     #[inline(always)]
-    fn encode_block<T: CodeInt, L: Lane>(
-        x: &L::Block<f32>,
-        y: &L::Block<f32>,
-        codes: &mut L::Block<T>,
+    fn encode_block<T: CodeInt, V: Simd>(
+        x: &V::Block<f32>,
+        y: &V::Block<f32>,
+        codes: &mut V::Block<T>,
     ) {
         const { assert!(holds::<T>(Self::BITS), "the integer has too few bits for the angle") };
         // What is no direction becomes (0, 0, 1), and (0, 0) has the angle 0.
-        let [x, y, _] = direction([L::load(x), L::load(y), L::zero()]);
-        L::store_int(nearest_angle::<BITS, L>([x, y]), codes, |code, k| *code = T::truncate(k));
+        let [x, y, _] = direction([V::load(x), V::load(y), V::zero()]);
+        V::store_int(nearest_angle::<BITS, V>([x, y]), codes, |code, k| *code = T::truncate(k));
     }
 
     #[inline(always)]
-    fn decode_block<T: CodeInt, L: Lane>(
-        codes: &L::Block<T>,
-        x: &mut L::Block<f32>,
-        y: &mut L::Block<f32>,
+    fn decode_block<T: CodeInt, V: Simd>(
+        codes: &V::Block<T>,
+        x: &mut V::Block<f32>,
+        y: &mut V::Block<f32>,
     ) {
         const { assert!(holds::<T>(Self::BITS), "the integer has too few bits for the angle") };
-        let [cos, sin] = angle_direction::<BITS, L>(L::load_int(codes, T::into));
+        let [cos, sin] = angle_direction::<BITS, V>(V::load_int(codes, T::into));
         cos.store(x);
         sin.store(y);
     }
@@ -167,28 +169,28 @@ impl<const BITS: u32> Angle<BITS> {
 /// ties to even. For components that are zero or from 2^-100 to 2^60. Above 24 bits the last ones are
 /// those of `f32` rounding.
 #[inline(always)]
-pub(crate) fn nearest_angle<const BITS: u32, L: Lane>([x, y]: [L; 2]) -> L::Int {
+pub(crate) fn nearest_angle<const BITS: u32, V: Simd>([x, y]: [V; 2]) -> V::Int {
     let (ax, ay) = (x.abs(), y.abs());
     // So many eighths of a turn, and a rest in half turns: no digit of a long code is lost.
     let (steep, rest) = angle_in_octant(ax, ay);
-    let eighths = L::Int::select(steep, L::Int::splat(1), L::Int::splat(0));
-    let mirror = |mask: L::Mask, sum: i32, (eighths, rest): (L::Int, L)| {
-        let mirrored = L::Int::splat(sum) - eighths;
-        (L::Int::select(mask, mirrored, eighths), L::select(mask, -rest, rest))
+    let eighths = V::Int::select(steep, V::Int::splat(1), V::Int::splat(0));
+    let mirror = |mask: V::Mask, sum: i32, (eighths, rest): (V::Int, V)| {
+        let mirrored = V::Int::splat(sum) - eighths;
+        (V::Int::select(mask, mirrored, eighths), V::select(mask, -rest, rest))
     };
     let angle = mirror(ax.lt(ay), 2, (eighths, rest));
-    let angle = mirror(x.lt(L::zero()), 4, angle);
-    let (eighths, rest) = mirror(y.lt(L::zero()), 0, angle);
-    let rest = rest * L::splat((1u32 << (BITS - 1)) as f32);
+    let angle = mirror(x.lt(V::zero()), 4, angle);
+    let (eighths, rest) = mirror(y.lt(V::zero()), 0, angle);
+    let rest = rest * V::splat((1u32 << (BITS - 1)) as f32);
     let k = if BITS < 3 {
-        let eighth = L::splat(if BITS == 1 { 0.25 } else { 0.5 });
-        (L::from_int(eighths) * eighth + rest).round_int()
+        let eighth = V::splat(if BITS == 1 { 0.25 } else { 0.5 });
+        (V::from_int(eighths) * eighth + rest).round_int()
     } else if BITS <= 24 {
         eighths.shl(BITS - 3) + rest.round_int()
     } else {
         // More than a float is rounded to at once. What the first rounding leaves is exact.
-        let coarse = (rest * L::splat(1.0 / 256.0)).round_int();
-        let fine = (rest - L::from_int(coarse) * L::splat(256.0)).round_int();
+        let coarse = (rest * V::splat(1.0 / 256.0)).round_int();
+        let fine = (rest - V::from_int(coarse) * V::splat(256.0)).round_int();
         eighths.shl(BITS - 3) + coarse.shl(8) + fine
     };
     k.low(BITS)
@@ -197,19 +199,19 @@ pub(crate) fn nearest_angle<const BITS: u32, L: Lane>([x, y]: [L; 2]) -> L::Int 
 /// (cos, sin) of the multiple of 2^-`BITS` turns that stands in the low bits of a code, each with error
 /// below 1.2e-7, and without negative zeros.
 #[inline(always)]
-pub(crate) fn angle_direction<const BITS: u32, L: Lane>(code: L::Int) -> [L; 2] {
+pub(crate) fn angle_direction<const BITS: u32, V: Simd>(code: V::Int) -> [V; 2] {
     let k = code.sign_extend(BITS);
     let (sin, cos) = if BITS <= 24 {
         // Exact, as is its distance from the nearest quarter turn.
-        sin_cos_quarter_turns(L::from_int(k) * L::splat(2.0 / (1u32 << (BITS - 1)) as f32))
+        sin_cos_quarter_turns(V::from_int(k) * V::splat(2.0 / (1u32 << (BITS - 1)) as f32))
     } else {
         // The nearest quarter turn in integers, as a float has fewer digits; then the rest.
-        let quarter = (k + L::Int::splat(1 << (BITS - 3))).sar(BITS - 2);
-        let rest = L::from_int(k - quarter.shl(BITS - 2));
-        let rest = rest * L::splat(1.0 / (1u32 << (BITS - 2)) as f32);
+        let quarter = (k + V::Int::splat(1 << (BITS - 3))).sar(BITS - 2);
+        let rest = V::from_int(k - quarter.shl(BITS - 2));
+        let rest = rest * V::splat(1.0 / (1u32 << (BITS - 2)) as f32);
         turn_by_quarters(quarter, sin_cos_of_half(rest))
     };
-    [cos, sin].each(|c| c + L::zero())
+    [cos, sin].each(|c| c + V::zero())
 }
 
 struct EncodeAngles<'a, const BITS: u32, T> {
@@ -220,11 +222,11 @@ struct EncodeAngles<'a, const BITS: u32, T> {
 
 impl<const BITS: u32, T: CodeInt> Job for EncodeAngles<'_, BITS, T> {
     #[inline(always)]
-    fn run<L: Lane>(self) -> Self {
+    fn run<V: Simd>(self) -> Self {
         let EncodeAngles { x, y, codes } = self;
-        let ((xs, x), (ys, y), (blocks, codes)) = (L::split(x), L::split(y), L::split_mut(codes));
+        let ((xs, x), (ys, y), (blocks, codes)) = (V::split(x), V::split(y), V::split_mut(codes));
         for ((x, y), codes) in xs.iter().zip(ys).zip(blocks) {
-            Angle::<BITS>::encode_block::<T, L>(x, y, codes);
+            Angle::<BITS>::encode_block::<T, V>(x, y, codes);
         }
         EncodeAngles { x, y, codes }
     }
@@ -238,12 +240,12 @@ struct DecodeAngles<'a, const BITS: u32, T> {
 
 impl<const BITS: u32, T: CodeInt> Job for DecodeAngles<'_, BITS, T> {
     #[inline(always)]
-    fn run<L: Lane>(self) -> Self {
+    fn run<V: Simd>(self) -> Self {
         let DecodeAngles { codes, x, y } = self;
         let ((blocks, codes), (xs, x), (ys, y)) =
-            (L::split(codes), L::split_mut(x), L::split_mut(y));
+            (V::split(codes), V::split_mut(x), V::split_mut(y));
         for ((codes, x), y) in blocks.iter().zip(xs).zip(ys) {
-            Angle::<BITS>::decode_block::<T, L>(codes, x, y);
+            Angle::<BITS>::decode_block::<T, V>(codes, x, y);
         }
         DecodeAngles { codes, x, y }
     }

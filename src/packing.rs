@@ -23,12 +23,12 @@
 //! # Ok::<(), unitpack::LengthMismatch>(())
 //! ```
 
+use crate::batch::code_int::{CodeInt, holds};
 use crate::batch::{self, Kernel};
-use crate::code_int::{CodeInt, holds};
 use crate::error::LengthMismatch;
-use crate::lane::{Each, Lane};
-use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
+use crate::formula::bits::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::scalar::{Grid, Snorm};
+use crate::simd::{Each, Simd};
 
 /// Two snorm numbers of 12 bits as an RGB8 texel, as [`Oct24`](crate::Oct24) packs its parameters:
 /// with u and v from -2047 to 2047 plus 2047, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
@@ -92,12 +92,12 @@ struct UnpackSnorm12x2;
 
 impl Kernel<[f32; 2], [u8; 3]> for PackSnorm12x2 {
     #[inline(always)]
-    fn run<L: Lane>(pairs: &L::Block<[f32; 2]>, texels: &mut L::Block<[u8; 3]>) {
+    fn run<V: Simd>(pairs: &V::Block<[f32; 2]>, texels: &mut V::Block<[u8; 3]>) {
         let params = [0, 1].each(|i: usize| {
-            let x = L::from_bits(L::load_int(pairs, |pair: [f32; 2]| pair[i].to_bits()));
+            let x = V::from_bits(V::load_int(pairs, |pair: [f32; 2]| pair[i].to_bits()));
             Snorm::<12>::nearest(x)
         });
-        L::store_int(pack_snorm2::<24, L>(params), texels, |texel: &mut [u8; 3], code| {
+        V::store_int(pack_snorm2::<24, V>(params), texels, |texel: &mut [u8; 3], code| {
             [texel[0], texel[1], texel[2], _] = code.to_le_bytes();
         });
     }
@@ -105,12 +105,12 @@ impl Kernel<[f32; 2], [u8; 3]> for PackSnorm12x2 {
 
 impl Kernel<[u8; 3], [f32; 2]> for UnpackSnorm12x2 {
     #[inline(always)]
-    fn run<L: Lane>(texels: &L::Block<[u8; 3]>, pairs: &mut L::Block<[f32; 2]>) {
-        let code = L::load_int(texels, |[r, g, b]: [u8; 3]| u32::from_le_bytes([r, g, b, 0]));
-        let [x, y] = unpack_snorm2::<24, L>(code)
-            .each(|i| (L::from_int(i) / L::splat(snorm_max(12) as f32)).to_bits());
-        L::store_int(x, pairs, |pair: &mut [f32; 2], bits| pair[0] = f32::from_bits(bits));
-        L::store_int(y, pairs, |pair: &mut [f32; 2], bits| pair[1] = f32::from_bits(bits));
+    fn run<V: Simd>(texels: &V::Block<[u8; 3]>, pairs: &mut V::Block<[f32; 2]>) {
+        let code = V::load_int(texels, |[r, g, b]: [u8; 3]| u32::from_le_bytes([r, g, b, 0]));
+        let [x, y] = unpack_snorm2::<24, V>(code)
+            .each(|i| (V::from_int(i) / V::splat(snorm_max(12) as f32)).to_bits());
+        V::store_int(x, pairs, |pair: &mut [f32; 2], bits| pair[0] = f32::from_bits(bits));
+        V::store_int(y, pairs, |pair: &mut [f32; 2], bits| pair[1] = f32::from_bits(bits));
     }
 }
 

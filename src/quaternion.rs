@@ -48,10 +48,10 @@ use core::marker::PhantomData;
 
 use bytemuck::Pod;
 
-use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
 use crate::formula::{Stored, Words, direction4};
-use crate::lane::Lane;
+use crate::simd::Simd;
+use crate::simd::dispatch::{Job, dispatch};
 
 mod chart;
 mod smallest_three;
@@ -263,20 +263,20 @@ trait Rotation: 'static {
     type Words: Words;
 
     /// The fast encoder, of what [`direction4`] gives. Gives canonical codes.
-    fn encode<L: Lane>(q: [L; 4]) -> <Self::Words as Words>::Packed<L>;
+    fn encode<V: Simd>(q: [V; 4]) -> <Self::Words as Words>::Packed<V>;
     /// The code whose decoded rotation is closest to that of `q`, canonical.
-    fn encode_precise<L: Lane>(q: [L; 4]) -> <Self::Words as Words>::Packed<L>;
+    fn encode_precise<V: Simd>(q: [V; 4]) -> <Self::Words as Words>::Packed<V>;
     /// Total: a unit quaternion for every bit pattern.
-    fn decode<L: Lane>(code: <Self::Words as Words>::Packed<L>) -> [L; 4];
+    fn decode<V: Simd>(code: <Self::Words as Words>::Packed<V>) -> [V; 4];
     /// The code that encoders emit for the rotation of `code`.
-    fn canonical<L: Lane>(
-        code: <Self::Words as Words>::Packed<L>,
-    ) -> <Self::Words as Words>::Packed<L>;
+    fn canonical<V: Simd>(
+        code: <Self::Words as Words>::Packed<V>,
+    ) -> <Self::Words as Words>::Packed<V>;
 }
 
 /// Which of a rotation's encoders.
 trait Encoder {
-    fn encode<F: Rotation, L: Lane>(q: [L; 4]) -> <F::Words as Words>::Packed<L>;
+    fn encode<F: Rotation, V: Simd>(q: [V; 4]) -> <F::Words as Words>::Packed<V>;
 }
 
 struct Fast;
@@ -284,26 +284,26 @@ struct Precise;
 
 impl Encoder for Fast {
     #[inline(always)]
-    fn encode<F: Rotation, L: Lane>(q: [L; 4]) -> <F::Words as Words>::Packed<L> {
+    fn encode<F: Rotation, V: Simd>(q: [V; 4]) -> <F::Words as Words>::Packed<V> {
         F::encode(q)
     }
 }
 
 impl Encoder for Precise {
     #[inline(always)]
-    fn encode<F: Rotation, L: Lane>(q: [L; 4]) -> <F::Words as Words>::Packed<L> {
+    fn encode<F: Rotation, V: Simd>(q: [V; 4]) -> <F::Words as Words>::Packed<V> {
         F::encode_precise(q)
     }
 }
 
 #[inline(always)]
-fn encode_block<E: Encoder, F: Rotation, C: Stored<F::Words>, L: Lane>(
-    q: [&L::Block<f32>; 4],
-    codes: &mut L::Block<C>,
+fn encode_block<E: Encoder, F: Rotation, C: Stored<F::Words>, V: Simd>(
+    q: [&V::Block<f32>; 4],
+    codes: &mut V::Block<C>,
 ) {
     let [x, y, z, w] = q;
-    let q = direction4([L::load(x), L::load(y), L::load(z), L::load(w)]);
-    C::store::<L>(E::encode::<F, L>(q), codes);
+    let q = direction4([V::load(x), V::load(y), V::load(z), V::load(w)]);
+    C::store::<V>(E::encode::<F, V>(q), codes);
 }
 
 #[inline]
@@ -325,13 +325,13 @@ fn encode_all<E: Encoder, F: Rotation, C: Stored<F::Words>>(
     }
     impl<E: Encoder, F: Rotation, C: Stored<F::Words>> Job for EncodeAll<'_, E, F, C> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let EncodeAll { q: Soa4 { x, y, z, w }, codes, how } = self;
             let ((xs, x), (ys, y), (zs, z), (ws, w)) =
-                (L::split(x), L::split(y), L::split(z), L::split(w));
-            let (blocks, codes) = L::split_mut(codes);
+                (V::split(x), V::split(y), V::split(z), V::split(w));
+            let (blocks, codes) = V::split_mut(codes);
             for ((((x, y), z), w), codes) in xs.iter().zip(ys).zip(zs).zip(ws).zip(blocks) {
-                encode_block::<E, F, C, L>([x, y, z, w], codes);
+                encode_block::<E, F, C, V>([x, y, z, w], codes);
             }
             EncodeAll { q: Soa4 { x, y, z, w }, codes, how }
         }
@@ -354,13 +354,13 @@ fn decode_all<F: Rotation, C: Stored<F::Words>>(
     }
     impl<F: Rotation, C: Stored<F::Words>> Job for DecodeAll<'_, F, C> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let DecodeAll { codes, q: Soa4Mut { x, y, z, w }, how } = self;
             let ((xs, x), (ys, y), (zs, z), (ws, w)) =
-                (L::split_mut(x), L::split_mut(y), L::split_mut(z), L::split_mut(w));
-            let (blocks, codes) = L::split(codes);
+                (V::split_mut(x), V::split_mut(y), V::split_mut(z), V::split_mut(w));
+            let (blocks, codes) = V::split(codes);
             for ((((codes, x), y), z), w) in blocks.iter().zip(xs).zip(ys).zip(zs).zip(ws) {
-                let q = F::decode::<L>(C::load::<L>(codes));
+                let q = F::decode::<V>(C::load::<V>(codes));
                 q[0].store(x);
                 q[1].store(y);
                 q[2].store(z);

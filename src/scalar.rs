@@ -34,11 +34,11 @@
 
 use core::marker::PhantomData;
 
+use crate::batch::code_int::{CodeInt, holds};
 use crate::batch::{self, Kernel};
-use crate::code_int::{CodeInt, holds};
 use crate::error::LengthMismatch;
-use crate::lane::{Lane, LaneInt};
-use crate::layout::{snorm_max, unorm_max};
+use crate::formula::bits::{snorm_max, unorm_max};
+use crate::simd::{Simd, SimdInt};
 
 /// A grid of numbers, and the codes of its points.
 pub trait Scalar: Copy + 'static {
@@ -84,9 +84,9 @@ pub trait Scalar: Copy + 'static {
 pub(crate) trait Grid: 'static {
     const BITS: u32;
     /// The index of the nearest point, ties to even. Negative ones have their sign in all bits.
-    fn nearest<L: Lane>(x: L) -> L::Int;
+    fn nearest<V: Simd>(x: V) -> V::Int;
     /// The point of a code, whose bits above `BITS` are ignored.
-    fn value<L: Lane>(code: L::Int) -> L;
+    fn value<V: Simd>(code: V::Int) -> V;
 }
 
 /// [`Scalar::encode`].
@@ -96,18 +96,18 @@ struct Decode<G>(PhantomData<G>);
 
 impl<G: Grid, C: CodeInt> Kernel<f32, C> for Encode<G> {
     #[inline(always)]
-    fn run<L: Lane>(values: &L::Block<f32>, codes: &mut L::Block<C>) {
+    fn run<V: Simd>(values: &V::Block<f32>, codes: &mut V::Block<C>) {
         const { assert!(holds::<C>(G::BITS), "the integer is narrower than the codes") };
-        let code = G::nearest(L::load(values)).low(G::BITS);
-        L::store_int(code, codes, |c, i| *c = C::truncate(i));
+        let code = G::nearest(V::load(values)).low(G::BITS);
+        V::store_int(code, codes, |c, i| *c = C::truncate(i));
     }
 }
 
 impl<G: Grid, C: CodeInt> Kernel<C, f32> for Decode<G> {
     #[inline(always)]
-    fn run<L: Lane>(codes: &L::Block<C>, values: &mut L::Block<f32>) {
+    fn run<V: Simd>(codes: &V::Block<C>, values: &mut V::Block<f32>) {
         const { assert!(holds::<C>(G::BITS), "the integer is narrower than the codes") };
-        G::value::<L>(L::load_int(codes, C::into)).store(values);
+        G::value::<V>(V::load_int(codes, C::into)).store(values);
     }
 }
 
@@ -173,12 +173,12 @@ impl<const BITS: u32> Grid for Unorm<BITS> {
     const BITS: u32 = <Self as Scalar>::BITS;
 
     #[inline(always)]
-    fn nearest<L: Lane>(x: L) -> L::Int {
-        times_max(clamp(x).greater(L::zero()), BITS)
+    fn nearest<V: Simd>(x: V) -> V::Int {
+        times_max(clamp(x).greater(V::zero()), BITS)
     }
     #[inline(always)]
-    fn value<L: Lane>(code: L::Int) -> L {
-        L::from_int(code.low(BITS)) / L::splat(unorm_max(BITS) as f32)
+    fn value<V: Simd>(code: V::Int) -> V {
+        V::from_int(code.low(BITS)) / V::splat(unorm_max(BITS) as f32)
     }
 }
 
@@ -186,15 +186,15 @@ impl<const BITS: u32> Grid for Snorm<BITS> {
     const BITS: u32 = <Self as Scalar>::BITS;
 
     #[inline(always)]
-    fn nearest<L: Lane>(x: L) -> L::Int {
+    fn nearest<V: Simd>(x: V) -> V::Int {
         let x = clamp(x);
         let magnitude = times_max(x.abs(), BITS - 1);
-        L::Int::select(x.lt(L::zero()), -magnitude, magnitude)
+        V::Int::select(x.lt(V::zero()), -magnitude, magnitude)
     }
     #[inline(always)]
-    fn value<L: Lane>(code: L::Int) -> L {
+    fn value<V: Simd>(code: V::Int) -> V {
         let max = snorm_max(BITS);
-        L::from_int(code.sign_extend(BITS).max(L::Int::splat(-max))) / L::splat(max as f32)
+        V::from_int(code.sign_extend(BITS).max(V::Int::splat(-max))) / V::splat(max as f32)
     }
 }
 
@@ -202,18 +202,18 @@ impl<const BITS: u32> Grid for BiasedUnorm<BITS> {
     const BITS: u32 = <Self as Scalar>::BITS;
 
     #[inline(always)]
-    fn nearest<L: Lane>(x: L) -> L::Int {
+    fn nearest<V: Simd>(x: V) -> V::Int {
         // (x + 1) / 2 M = 2^(BITS-1) + n + rest - (x + 1) / 2, with n + rest = 2^(BITS-1) x: all
         // exact.
         let x = clamp(x);
         let (n, rest) = scale(x, BITS - 1);
-        one_less_where_below::<L>(n, rest + rest, x) + L::Int::splat(1 << (BITS - 1))
+        one_less_where_below::<V>(n, rest + rest, x) + V::Int::splat(1 << (BITS - 1))
     }
     #[inline(always)]
-    fn value<L: Lane>(code: L::Int) -> L {
+    fn value<V: Simd>(code: V::Int) -> V {
         let max = unorm_max(BITS);
         let code = code.low(BITS);
-        L::from_int(code + code - L::Int::splat(max)) / L::splat(max as f32)
+        V::from_int(code + code - V::Int::splat(max)) / V::splat(max as f32)
     }
 }
 
@@ -221,31 +221,31 @@ impl<const BITS: u32> Grid for Fixed<BITS> {
     const BITS: u32 = <Self as Scalar>::BITS;
 
     #[inline(always)]
-    fn nearest<L: Lane>(x: L) -> L::Int {
+    fn nearest<V: Simd>(x: V) -> V::Int {
         let (n, _) = scale(clamp(x), BITS - 1);
-        n.min(L::Int::splat(snorm_max(BITS)))
+        n.min(V::Int::splat(snorm_max(BITS)))
     }
     #[inline(always)]
-    fn value<L: Lane>(code: L::Int) -> L {
-        L::from_int(code.sign_extend(BITS)) / L::splat((1 << (BITS - 1)) as f32)
+    fn value<V: Simd>(code: V::Int) -> V {
+        V::from_int(code.sign_extend(BITS)) / V::splat((1 << (BITS - 1)) as f32)
     }
 }
 
 /// From -1 to 1; NaN becomes 0.
 #[inline(always)]
-fn clamp<L: Lane>(x: L) -> L {
+fn clamp<V: Simd>(x: V) -> V {
     // `greater` alone would not do: see there.
-    let x = L::select(x.le(x), x, L::zero());
-    x.greater(L::splat(-1.0)).lesser(L::splat(1.0))
+    let x = V::select(x.le(x), x, V::zero());
+    x.greater(V::splat(-1.0)).lesser(V::splat(1.0))
 }
 
 /// 2^`bits` x as the nearest integer, ties to even, and what is left, -1/2 to 1/2. Both exact for
 /// |x| <= 1 and at most 24 bits.
 #[inline(always)]
-fn scale<L: Lane>(x: L, bits: u32) -> (L::Int, L) {
-    let scaled = x * L::splat((1 << bits) as f32);
+fn scale<V: Simd>(x: V, bits: u32) -> (V::Int, V) {
+    let scaled = x * V::splat((1 << bits) as f32);
     let n = if bits <= 22 { scaled.round_int() } else { scaled.round_int_wide() };
-    (n, scaled - L::from_int(n))
+    (n, scaled - V::from_int(n))
 }
 
 /// The integer nearest to (2^`bits` - 1) x, ties to even, for 0 <= x <= 1.
@@ -254,15 +254,15 @@ fn scale<L: Lane>(x: L, bits: u32) -> (L::Int, L) {
 /// none. But it is n + rest - x, with n + rest = 2^`bits` x, and rest + 1/2 is exact wherever it is
 /// not greater than x.
 #[inline(always)]
-fn times_max<L: Lane>(x: L, bits: u32) -> L::Int {
+fn times_max<V: Simd>(x: V, bits: u32) -> V::Int {
     let (n, rest) = scale(x, bits);
-    one_less_where_below::<L>(n, rest + L::splat(0.5), x)
+    one_less_where_below::<V>(n, rest + V::splat(0.5), x)
 }
 
 /// n - 1 where a < b; where they are equal, the even one of n and n - 1; otherwise n.
 #[inline(always)]
-fn one_less_where_below<L: Lane>(n: L::Int, a: L, b: L) -> L::Int {
-    let odd = n.low(1).eq(L::Int::splat(1));
+fn one_less_where_below<V: Simd>(n: V::Int, a: V, b: V) -> V::Int {
+    let odd = n.low(1).eq(V::Int::splat(1));
     let less = a.lt(b) | (a.le(b) & odd);
-    L::Int::select(less, n - L::Int::splat(1), n)
+    V::Int::select(less, n - V::Int::splat(1), n)
 }

@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use crate::batch::{Encoder, STAGE, Soa, SoaMut, Stage};
-use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
-use crate::lane::{Lane, LaneInt};
+use crate::simd::dispatch::{Job, dispatch};
+use crate::simd::{Simd, SimdInt};
 
 use super::formula::{FrameFormula, Prepared, StoredFrame, skew_degrees};
 use super::{Frame, FrameSoa, FrameSoaMut, Skew};
@@ -22,16 +22,16 @@ impl Worst {
     /// Takes account of so many blocks: of each lane the greatest squared sine, and of which block it
     /// first was.
     #[inline(always)]
-    fn consider<L: Lane>(&mut self, sin_squared: L, block: L::Int, blocks: usize) {
+    fn consider<V: Simd>(&mut self, sin_squared: V, block: V::Int, blocks: usize) {
         /// No lanes are more.
         const MOST: usize = 16;
-        let lanes = size_of::<L::Block<f32>>() / size_of::<f32>();
+        let lanes = size_of::<V::Block<f32>>() / size_of::<f32>();
         let (mut sines, mut of_blocks) = ([0.0; MOST], [0; MOST]);
         if let (Some(sines), Some(of_blocks)) =
-            (L::split_mut(&mut sines).0.first_mut(), L::split_mut(&mut of_blocks).0.first_mut())
+            (V::split_mut(&mut sines).0.first_mut(), V::split_mut(&mut of_blocks).0.first_mut())
         {
             sin_squared.store(sines);
-            L::store_int(block, of_blocks, |block, i| *block = i);
+            V::store_int(block, of_blocks, |block, i| *block = i);
         }
         let first = self.seen;
         for (lane, (sin_squared, block)) in sines.into_iter().zip(of_blocks).enumerate() {
@@ -51,15 +51,15 @@ impl Worst {
 }
 
 #[inline(always)]
-fn encode_block<E: Encoder, F: FrameFormula, C: StoredFrame, L: Lane>(
-    normal: [L; 3],
-    tangent: [L; 3],
-    handedness: L,
-    code: &mut L::Block<C>,
-) -> L {
+fn encode_block<E: Encoder, F: FrameFormula, C: StoredFrame, V: Simd>(
+    normal: [V; 3],
+    tangent: [V; 3],
+    handedness: V,
+    code: &mut V::Block<C>,
+) -> V {
     let frame = Prepared::new(normal, tangent, handedness);
     let sin_squared = frame.sin_squared;
-    C::store::<L>(F::encode::<E, L>(frame), code);
+    C::store::<V>(F::encode::<E, V>(frame), code);
     sin_squared
 }
 
@@ -112,28 +112,28 @@ fn encode_all<E: Encoder, F: FrameFormula, C: StoredFrame>(
     }
     impl<E: Encoder, F: FrameFormula, C: StoredFrame> Job for EncodeAll<'_, E, F, C> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let EncodeAll { frames: FrameSoa { normal, tangent, handedness }, codes, worst, how } =
                 self;
-            let (normals, normal) = split::<L>(normal);
-            let (tangents, tangent) = split::<L>(tangent);
-            let (signs, handedness) = L::split(handedness);
-            let (blocks, codes) = L::split_mut(codes);
+            let (normals, normal) = split::<V>(normal);
+            let (tangents, tangent) = split::<V>(tangent);
+            let (signs, handedness) = V::split(handedness);
+            let (blocks, codes) = V::split_mut(codes);
             let count = blocks.len();
             let normals = normals.x.iter().zip(normals.y).zip(normals.z);
             let tangents = tangents.x.iter().zip(tangents.y).zip(tangents.z);
-            let (mut greatest, mut of_block) = (L::zero(), L::Int::splat(0));
-            let mut number = L::Int::splat(0);
+            let (mut greatest, mut of_block) = (V::zero(), V::Int::splat(0));
+            let mut number = V::Int::splat(0);
             for ((((nx, ny), nz), ((tx, ty), tz)), (sign, code)) in
                 normals.zip(tangents).zip(signs.iter().zip(blocks))
             {
-                let normal = [L::load(nx), L::load(ny), L::load(nz)];
-                let tangent = [L::load(tx), L::load(ty), L::load(tz)];
-                let sin_squared = encode_block::<E, F, C, L>(normal, tangent, L::load(sign), code);
+                let normal = [V::load(nx), V::load(ny), V::load(nz)];
+                let tangent = [V::load(tx), V::load(ty), V::load(tz)];
+                let sin_squared = encode_block::<E, F, C, V>(normal, tangent, V::load(sign), code);
                 let greater = greatest.lt(sin_squared);
-                greatest = L::select(greater, sin_squared, greatest);
-                of_block = L::Int::select(greater, number, of_block);
-                number = number + L::Int::splat(1);
+                greatest = V::select(greater, sin_squared, greatest);
+                of_block = V::Int::select(greater, number, of_block);
+                number = number + V::Int::splat(1);
             }
             worst.consider(greatest, of_block, count);
             EncodeAll { frames: FrameSoa { normal, tangent, handedness }, codes, worst, how }
@@ -150,8 +150,8 @@ struct Blocks<'a, B> {
 }
 
 #[inline(always)]
-fn split<L: Lane>(v: Soa<'_>) -> (Blocks<'_, L::Block<f32>>, Soa<'_>) {
-    let ((xs, x), (ys, y), (zs, z)) = (L::split(v.x), L::split(v.y), L::split(v.z));
+fn split<V: Simd>(v: Soa<'_>) -> (Blocks<'_, V::Block<f32>>, Soa<'_>) {
+    let ((xs, x), (ys, y), (zs, z)) = (V::split(v.x), V::split(v.y), V::split(v.z));
     (Blocks { x: xs, y: ys, z: zs }, Soa { x, y, z })
 }
 
@@ -177,23 +177,23 @@ fn decode_all<F: FrameFormula, C: StoredFrame>(codes: &[C], frames: FrameSoaMut<
     }
     impl<F: FrameFormula, C: StoredFrame> Job for DecodeAll<'_, F, C> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let DecodeAll { codes, frames: FrameSoaMut { normal, tangent, handedness }, how } =
                 self;
             let ((nx, x), (ny, y), (nz, z)) =
-                (L::split_mut(normal.x), L::split_mut(normal.y), L::split_mut(normal.z));
+                (V::split_mut(normal.x), V::split_mut(normal.y), V::split_mut(normal.z));
             let normal = SoaMut { x, y, z };
             let ((tx, x), (ty, y), (tz, z)) =
-                (L::split_mut(tangent.x), L::split_mut(tangent.y), L::split_mut(tangent.z));
+                (V::split_mut(tangent.x), V::split_mut(tangent.y), V::split_mut(tangent.z));
             let tangent = SoaMut { x, y, z };
-            let (signs, handedness) = L::split_mut(handedness);
-            let (blocks, codes) = L::split(codes);
+            let (signs, handedness) = V::split_mut(handedness);
+            let (blocks, codes) = V::split(codes);
             let normals = nx.iter_mut().zip(ny).zip(nz);
             let tangents = tx.iter_mut().zip(ty).zip(tz);
             for ((((nx, ny), nz), ((tx, ty), tz)), (sign, code)) in
                 normals.zip(tangents).zip(signs.iter_mut().zip(blocks))
             {
-                let frame = F::decode::<L>(C::load::<L>(code));
+                let frame = F::decode::<V>(C::load::<V>(code));
                 frame.normal[0].store(nx);
                 frame.normal[1].store(ny);
                 frame.normal[2].store(nz);

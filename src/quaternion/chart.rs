@@ -1,26 +1,26 @@
 //! The four charts of the rotations. In each, one component is left out, and the three others are
 //! stored in their order.
 
+use crate::formula::bits::snorm_max;
 use crate::formula::{One, Three, Two, Words, around};
-use crate::lane::{Each, Lane, LaneInt};
-use crate::layout::snorm_max;
+use crate::simd::{Each, Simd, SimdInt};
 
 /// Three stored integers, and which component is left out: 0 to 3 for x to w.
-pub(super) type Point<L> = ([<L as Lane>::Int; 3], <L as Lane>::Int);
+pub(super) type Point<V> = ([<V as Simd>::Int; 3], <V as Simd>::Int);
 
 /// Which component is left out.
-pub(super) struct LeftOut<L: Lane> {
-    is_x: L::Mask,
-    is_y: L::Mask,
-    is_z: L::Mask,
+pub(super) struct LeftOut<V: Simd> {
+    is_x: V::Mask,
+    is_y: V::Mask,
+    is_z: V::Mask,
 }
 
-impl<L: Lane> LeftOut<L> {
+impl<V: Simd> LeftOut<V> {
     #[inline(always)]
-    pub(super) fn new(index: L::Int) -> Self {
+    pub(super) fn new(index: V::Int) -> Self {
         let [is_x, is_y, is_z] = [0, 1, 2].each(
             #[inline(always)]
-            |i| index.eq(L::Int::splat(i)),
+            |i| index.eq(V::Int::splat(i)),
         );
         LeftOut { is_x, is_y, is_z }
     }
@@ -31,7 +31,7 @@ impl<L: Lane> LeftOut<L> {
         &self,
         [i, j, l]: [T; 3],
         left_out: T,
-        select: impl Fn(L::Mask, T, T) -> T,
+        select: impl Fn(V::Mask, T, T) -> T,
     ) -> [T; 4] {
         let LeftOut { is_x, is_y, is_z } = *self;
         [
@@ -47,7 +47,7 @@ impl<L: Lane> LeftOut<L> {
     pub(super) fn remove<T: Copy>(
         &self,
         [x, y, z, w]: [T; 4],
-        select: impl Fn(L::Mask, T, T) -> T,
+        select: impl Fn(V::Mask, T, T) -> T,
     ) -> ([T; 3], T) {
         let LeftOut { is_x, is_y, is_z } = *self;
         let others =
@@ -58,10 +58,10 @@ impl<L: Lane> LeftOut<L> {
 
 /// The index of the greatest, the first of equals.
 #[inline(always)]
-pub(super) fn greatest<L: Lane>([x, y, z, w]: [L::Int; 4]) -> L::Int {
-    let (mut index, mut most) = (L::Int::splat(0), x);
+pub(super) fn greatest<V: Simd>([x, y, z, w]: [V::Int; 4]) -> V::Int {
+    let (mut index, mut most) = (V::Int::splat(0), x);
     for (i, c) in [(1, y), (2, z), (3, w)] {
-        index = L::Int::select(most.lt(c), L::Int::splat(i), index);
+        index = V::Int::select(most.lt(c), V::Int::splat(i), index);
         most = most.max(c);
     }
     index
@@ -69,9 +69,9 @@ pub(super) fn greatest<L: Lane>([x, y, z, w]: [L::Int; 4]) -> L::Int {
 
 /// The component of the greatest magnitude, the first of equals.
 #[inline(always)]
-pub(super) fn largest<L: Lane>(q: [L; 4]) -> L::Int {
+pub(super) fn largest<V: Simd>(q: [V; 4]) -> V::Int {
     // Magnitudes of floats stand in the order of their bits.
-    greatest::<L>(q.each(
+    greatest::<V>(q.each(
         #[inline(always)]
         |c| c.abs().to_bits(),
     ))
@@ -79,35 +79,35 @@ pub(super) fn largest<L: Lane>(q: [L; 4]) -> L::Int {
 
 /// A quaternion of integers in the chart of its largest component.
 #[inline(always)]
-pub(super) fn in_chart_of_largest<L: Lane>(q: [L::Int; 4]) -> Point<L> {
-    let index = greatest::<L>(q.each(
+pub(super) fn in_chart_of_largest<V: Simd>(q: [V::Int; 4]) -> Point<V> {
+    let index = greatest::<V>(q.each(
         #[inline(always)]
         |c| c.abs(),
     ));
-    let (others, left_out) = LeftOut::<L>::new(index).remove(q, L::Int::select);
-    let negative = left_out.lt(L::Int::splat(0));
+    let (others, left_out) = LeftOut::<V>::new(index).remove(q, V::Int::select);
+    let negative = left_out.lt(V::Int::splat(0));
     let others = others.each(
         #[inline(always)]
-        |c| L::Int::select(negative, -c, c),
+        |c| V::Int::select(negative, -c, c),
     );
     (others, index)
 }
 
 /// One point or another, lane by lane.
 #[inline(always)]
-pub(super) fn select_point<L: Lane>(mask: L::Mask, yes: Point<L>, no: Point<L>) -> Point<L> {
+pub(super) fn select_point<V: Simd>(mask: V::Mask, yes: Point<V>, no: Point<V>) -> Point<V> {
     let ([a, b, c], [d, e, f]) = (yes.0, no.0);
     let fields =
-        [L::Int::select(mask, a, d), L::Int::select(mask, b, e), L::Int::select(mask, c, f)];
-    (fields, L::Int::select(mask, yes.1, no.1))
+        [V::Int::select(mask, a, d), V::Int::select(mask, b, e), V::Int::select(mask, c, f)];
+    (fields, V::Int::select(mask, yes.1, no.1))
 }
 
 /// The two integers from -m to m around `x`, or twice the nearest.
 #[inline(always)]
-pub(super) fn around_within<L: Lane>(x: L, m: i32) -> [L::Int; 2] {
+pub(super) fn around_within<V: Simd>(x: V, m: i32) -> [V::Int; 2] {
     around(x).each(
         #[inline(always)]
-        |i| i.max(L::Int::splat(-m)).min(L::Int::splat(m)),
+        |i| i.max(V::Int::splat(-m)).min(V::Int::splat(m)),
     )
 }
 
@@ -118,17 +118,17 @@ pub(super) trait Layout: 'static {
     /// The greatest snorm.
     const M: i32 = snorm_max(Self::BITS);
 
-    fn pack<L: Lane>(point: Point<L>) -> <Self::Words as Words>::Packed<L>;
+    fn pack<V: Simd>(point: Point<V>) -> <Self::Words as Words>::Packed<V>;
     /// The fields, of which only the low bits count, and the index.
-    fn fields<L: Lane>(code: <Self::Words as Words>::Packed<L>) -> Point<L>;
+    fn fields<V: Simd>(code: <Self::Words as Words>::Packed<V>) -> Point<V>;
 
     /// The pattern out of range reads as its neighbour.
     #[inline(always)]
-    fn unpack<L: Lane>(code: <Self::Words as Words>::Packed<L>) -> Point<L> {
-        let (fields, index) = Self::fields::<L>(code);
+    fn unpack<V: Simd>(code: <Self::Words as Words>::Packed<V>) -> Point<V> {
+        let (fields, index) = Self::fields::<V>(code);
         let fields = fields.each(
             #[inline(always)]
-            |f| f.sign_extend(Self::BITS).max(L::Int::splat(-Self::M)),
+            |f| f.sign_extend(Self::BITS).max(V::Int::splat(-Self::M)),
         );
         (fields, index)
     }
@@ -147,11 +147,11 @@ impl Layout for Tens {
     const BITS: u32 = 10;
 
     #[inline(always)]
-    fn pack<L: Lane>(([i, j, l], index): Point<L>) -> L::Int {
+    fn pack<V: Simd>(([i, j, l], index): Point<V>) -> V::Int {
         i.low(10) | j.low(10).shl(10) | l.low(10).shl(20) | index.shl(30)
     }
     #[inline(always)]
-    fn fields<L: Lane>(code: L::Int) -> Point<L> {
+    fn fields<V: Simd>(code: V::Int) -> Point<V> {
         ([code, code.shr(10), code.shr(20)], code.shr(30))
     }
 }
@@ -161,11 +161,11 @@ impl Layout for Fifteens {
     const BITS: u32 = 15;
 
     #[inline(always)]
-    fn pack<L: Lane>(([i, j, l], index): Point<L>) -> [L::Int; 3] {
+    fn pack<V: Simd>(([i, j, l], index): Point<V>) -> [V::Int; 3] {
         [i.low(15) | index.shl(15), j.low(15) | index.shr(1).shl(15), l.low(15)]
     }
     #[inline(always)]
-    fn fields<L: Lane>(code: [L::Int; 3]) -> Point<L> {
+    fn fields<V: Simd>(code: [V::Int; 3]) -> Point<V> {
         (code, code[0].shr(15).low(1) | code[1].shr(15).low(1).shl(1))
     }
 }
@@ -175,14 +175,14 @@ impl Layout for Twenties {
     const BITS: u32 = 20;
 
     #[inline(always)]
-    fn pack<L: Lane>(([i, j, l], index): Point<L>) -> [L::Int; 2] {
+    fn pack<V: Simd>(([i, j, l], index): Point<V>) -> [V::Int; 2] {
         [i.low(20) | j.shl(20), j.low(20).shr(12) | l.low(20).shl(8) | index.shl(30)]
     }
     #[inline(always)]
-    fn fields<L: Lane>([low, high]: [L::Int; 2]) -> Point<L> {
+    fn fields<V: Simd>([low, high]: [V::Int; 2]) -> Point<V> {
         ([low, low.shr(20) | high.shl(12), high.shr(8)], high.shr(30))
     }
 }
 
 /// A code of a layout in lanes.
-pub(super) type Code<Y, L> = <<Y as Layout>::Words as Words>::Packed<L>;
+pub(super) type Code<Y, V> = <<Y as Layout>::Words as Words>::Packed<V>;

@@ -27,8 +27,8 @@ use super::Rotation;
 use super::chart::{
     Code, Layout, LeftOut, Point, around_within, in_chart_of_largest, largest, select_point,
 };
-use crate::lane::{Each, Lane, LaneInt, LaneMask};
-use crate::math::{inv_sqrt, sqrt};
+use crate::simd::math::{inv_sqrt, sqrt};
+use crate::simd::{Each, Simd, SimdInt, SimdMask};
 
 /// Smallest three in the layout `Y`.
 pub(super) struct SmallestThree<Y>(PhantomData<Y>);
@@ -43,78 +43,78 @@ impl<Y: Layout> SmallestThree<Y> {
 
     /// n to `f32` rounding, and its low 32 bits.
     #[inline(always)]
-    fn left_out_squared<L: Lane>(fields: [L::Int; 3]) -> (L, L::Int) {
+    fn left_out_squared<V: Simd>(fields: [V::Int; 3]) -> (V, V::Int) {
         let [ii, jj, ll] = fields.each(
             #[inline(always)]
             |i| i * i,
         );
-        let low = L::Int::splat(Self::SQUARE as i32) - ii - jj - ll;
+        let low = V::Int::splat(Self::SQUARE as i32) - ii - jj - ll;
         if Y::BITS <= 15 {
-            return (L::from_int(low), low);
+            return (V::from_int(low), low);
         }
         // In digits of 10 bits, i^2 = 2^20 h^2 + 2^11 h r + r^2.
         let [h, r] = [fields.each(|i| i.sar(10)), fields.each(|i| i.low(10))];
         let high =
-            L::Int::splat((Self::SQUARE >> 20) as i32) - h[0] * h[0] - h[1] * h[1] - h[2] * h[2];
+            V::Int::splat((Self::SQUARE >> 20) as i32) - h[0] * h[0] - h[1] * h[1] - h[2] * h[2];
         let middle = h[0] * r[0] + h[1] * r[1] + h[2] * r[2];
-        let rest = L::Int::splat((Self::SQUARE & 0xF_FFFF) as i32)
+        let rest = V::Int::splat((Self::SQUARE & 0xF_FFFF) as i32)
             - r[0] * r[0]
             - r[1] * r[1]
             - r[2] * r[2];
         // Both exact.
-        let high = L::from_int(high - middle.sar(9));
-        let rest = L::from_int(rest - middle.low(9).shl(11));
-        (high * L::splat(1_048_576.0) + rest, low)
+        let high = V::from_int(high - middle.sar(9));
+        let rest = V::from_int(rest - middle.low(9).shl(11));
+        (high * V::splat(1_048_576.0) + rest, low)
     }
 
     /// What a code stands for.
     #[inline(always)]
-    fn point<L: Lane>(code: Code<Y, L>) -> Point<L> {
-        let point = Y::unpack::<L>(code);
-        let beyond = Self::left_out_squared::<L>(point.0).0.lt(L::zero());
-        let identity = ([L::Int::splat(0); 3], L::Int::splat(3));
-        select_point::<L>(beyond, identity, point)
+    fn point<V: Simd>(code: Code<Y, V>) -> Point<V> {
+        let point = Y::unpack::<V>(code);
+        let beyond = Self::left_out_squared::<V>(point.0).0.lt(V::zero());
+        let identity = ([V::Int::splat(0); 3], V::Int::splat(3));
+        select_point::<V>(beyond, identity, point)
     }
 
     /// Of the codes that mean one rotation the one that is emitted.
     #[inline(always)]
-    fn canonical_point<L: Lane>((fields, index): Point<L>) -> Point<L> {
-        let (n, low) = Self::left_out_squared::<L>(fields);
+    fn canonical_point<V: Simd>((fields, index): Point<V>) -> Point<V> {
+        let (n, low) = Self::left_out_squared::<V>(fields);
         let root = sqrt(n).round_int();
         // The root is off by less than 0.3, so equal low bits mean that all are.
         let whole = (root * root).eq(low);
-        let q = LeftOut::<L>::new(index).insert(fields, root, L::Int::select);
-        select_point::<L>(whole, in_chart_of_largest::<L>(q), (fields, index))
+        let q = LeftOut::<V>::new(index).insert(fields, root, V::Int::select);
+        select_point::<V>(whole, in_chart_of_largest::<V>(q), (fields, index))
     }
 
     /// The nearest of all codes, canonical.
     #[inline(always)]
-    fn nearest<L: Lane>(q: [L; 4]) -> Point<L> {
-        let scale = inv_sqrt(length_squared(q)) * L::splat(Self::STEPS);
+    fn nearest<V: Simd>(q: [V; 4]) -> Point<V> {
+        let scale = inv_sqrt(length_squared(q)) * V::splat(Self::STEPS);
         let [x, y, z, w] = q.each(
             #[inline(always)]
             |c| c * scale,
         );
-        let zero = L::Int::splat(0);
-        let mut nearest = Nearest { point: ([zero; 3], zero), off: L::splat(f32::INFINITY) };
+        let zero = V::Int::splat(0);
+        let mut nearest = Nearest { point: ([zero; 3], zero), off: V::splat(f32::INFINITY) };
         nearest.consider::<Y>([y, z, w], x, 0);
         nearest.consider::<Y>([x, z, w], y, 1);
         nearest.consider::<Y>([x, y, w], z, 2);
         nearest.consider::<Y>([x, y, z], w, 3);
-        Self::canonical_point::<L>(nearest.point)
+        Self::canonical_point::<V>(nearest.point)
     }
 }
 
 /// The nearest code so far, and how far off it is in steps, squared.
-struct Nearest<L: Lane> {
-    point: Point<L>,
-    off: L,
+struct Nearest<V: Simd> {
+    point: Point<V>,
+    off: V,
 }
 
-impl<L: Lane> Nearest<L> {
+impl<V: Simd> Nearest<V> {
     /// Considers the eight roundings in one chart, of a quaternion in steps.
     #[inline(always)]
-    fn consider<Y: Layout>(&mut self, others: [L; 3], left_out: L, index: i32) {
+    fn consider<Y: Layout>(&mut self, others: [V; 3], left_out: V, index: i32) {
         let target = others.each(
             #[inline(always)]
             |c| c.negate_where_negative(left_out),
@@ -127,17 +127,17 @@ impl<L: Lane> Nearest<L> {
             for j in js {
                 for l in ls {
                     let fields = [i, j, l];
-                    let (n, _) = SmallestThree::<Y>::left_out_squared::<L>(fields);
+                    let (n, _) = SmallestThree::<Y>::left_out_squared::<V>(fields);
                     let mut off = sqrt(n) - left_out.abs();
                     off = off * off;
                     for axis in 0..3 {
-                        let e = L::from_int(fields[axis]) - target[axis];
+                        let e = V::from_int(fields[axis]) - target[axis];
                         off = off + e * e;
                     }
-                    let nearer = off.lt(self.off) & L::zero().le(n);
-                    self.off = L::select(nearer, off, self.off);
-                    let point = (fields, L::Int::splat(index));
-                    self.point = select_point::<L>(nearer, point, self.point);
+                    let nearer = off.lt(self.off) & V::zero().le(n);
+                    self.off = V::select(nearer, off, self.off);
+                    let point = (fields, V::Int::splat(index));
+                    self.point = select_point::<V>(nearer, point, self.point);
                 }
             }
         }
@@ -148,10 +148,10 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
     type Words = Y::Words;
 
     #[inline(always)]
-    fn encode<L: Lane>(q: [L; 4]) -> Code<Y, L> {
+    fn encode<V: Simd>(q: [V; 4]) -> Code<Y, V> {
         let index = largest(q);
-        let (others, left_out) = LeftOut::<L>::new(index).remove(q, L::select);
-        let scale = inv_sqrt(length_squared(q)) * L::splat(Self::STEPS);
+        let (others, left_out) = LeftOut::<V>::new(index).remove(q, V::select);
+        let scale = inv_sqrt(length_squared(q)) * V::splat(Self::STEPS);
         let fields = others.each(
             #[inline(always)]
             |c| (c * scale.negate_where_negative(left_out)).round_int(),
@@ -162,43 +162,43 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
             #[inline(always)]
             |i| i.abs(),
         );
-        let margin = left_out.abs() * scale - L::from_int(i.max(j).max(l));
+        let margin = left_out.abs() * scale - V::from_int(i.max(j).max(l));
         let mut point = (fields, index);
-        if margin.lt(L::splat(2.0)).any() {
-            point = Self::canonical_point::<L>(point);
+        if margin.lt(V::splat(2.0)).any() {
+            point = Self::canonical_point::<V>(point);
         }
-        Y::pack::<L>(point)
+        Y::pack::<V>(point)
     }
 
     #[inline(always)]
-    fn encode_precise<L: Lane>(q: [L; 4]) -> Code<Y, L> {
-        Y::pack::<L>(Self::nearest(q))
+    fn encode_precise<V: Simd>(q: [V; 4]) -> Code<Y, V> {
+        Y::pack::<V>(Self::nearest(q))
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: Code<Y, L>) -> [L; 4] {
-        let (fields, index) = Self::point::<L>(code);
-        let (n, low) = Self::left_out_squared::<L>(fields);
-        let root = sqrt(n * L::splat(1.0 / Self::SQUARE as f32));
+    fn decode<V: Simd>(code: Code<Y, V>) -> [V; 4] {
+        let (fields, index) = Self::point::<V>(code);
+        let (n, low) = Self::left_out_squared::<V>(fields);
+        let root = sqrt(n * V::splat(1.0 / Self::SQUARE as f32));
         // Whole numbers of steps are exact, so that it does not matter which component is left out.
-        let whole = (root * L::splat(Self::STEPS)).round_int();
-        let exact = L::from_int(whole) * L::splat(Self::STEP);
-        let left_out = L::Int::select((whole * whole).eq(low), exact.to_bits(), root.to_bits());
+        let whole = (root * V::splat(Self::STEPS)).round_int();
+        let exact = V::from_int(whole) * V::splat(Self::STEP);
+        let left_out = V::Int::select((whole * whole).eq(low), exact.to_bits(), root.to_bits());
         let others = fields.each(
             #[inline(always)]
-            |i| L::from_int(i) * L::splat(Self::STEP),
+            |i| V::from_int(i) * V::splat(Self::STEP),
         );
-        LeftOut::<L>::new(index).insert(others, L::from_bits(left_out), L::select)
+        LeftOut::<V>::new(index).insert(others, V::from_bits(left_out), V::select)
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: Code<Y, L>) -> Code<Y, L> {
-        Y::pack::<L>(Self::canonical_point::<L>(Self::point::<L>(code)))
+    fn canonical<V: Simd>(code: Code<Y, V>) -> Code<Y, V> {
+        Y::pack::<V>(Self::canonical_point::<V>(Self::point::<V>(code)))
     }
 }
 
 /// q.q.
 #[inline(always)]
-pub(super) fn length_squared<L: Lane>(q: [L; 4]) -> L {
+pub(super) fn length_squared<V: Simd>(q: [V; 4]) -> V {
     q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
 }

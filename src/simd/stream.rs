@@ -43,7 +43,7 @@ impl Drop for Fence<'_> {
     fn drop(&mut self) {
         #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
         if self.streams {
-            crate::stores_x86::fence();
+            crate::simd::x86::stores::fence();
         }
     }
 }

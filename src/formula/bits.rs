@@ -1,11 +1,11 @@
 //! Where the parameters of a code stand among its bits.
 
-use crate::lane::{Each, Lane, LaneInt};
+use crate::simd::{Each, Simd, SimdInt};
 
 /// Two parameters of `BITS / 2` bits each: the first in the low bits. At 24 bits, the RGB8 bytes of
 /// the survey's Listing 4 (Cigolle et al. 2014): `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
 #[inline(always)]
-pub(crate) fn pack2<const BITS: u32, L: Lane>([u, v]: [L::Int; 2]) -> L::Int {
+pub(crate) fn pack2<const BITS: u32, V: Simd>([u, v]: [V::Int; 2]) -> V::Int {
     if BITS == 24 {
         u.low(12).shr(4) | (u.low(4).shl(4) | v.low(12).shr(8)).shl(8) | v.low(8).shl(16)
     } else {
@@ -15,7 +15,7 @@ pub(crate) fn pack2<const BITS: u32, L: Lane>([u, v]: [L::Int; 2]) -> L::Int {
 
 /// The parameters of [`pack2`], without sign.
 #[inline(always)]
-pub(crate) fn unpack2<const BITS: u32, L: Lane>(code: L::Int) -> [L::Int; 2] {
+pub(crate) fn unpack2<const BITS: u32, V: Simd>(code: V::Int) -> [V::Int; 2] {
     if BITS == 24 {
         [code.low(8).shl(4) | code.shr(12).low(4), code.shr(8).low(4).shl(8) | code.shr(16).low(8)]
     } else {
@@ -36,21 +36,21 @@ pub(crate) const fn unorm_max(bits: u32) -> i32 {
 /// Two snorm parameters, each from -M to M with M = 2^(BITS/2 - 1) - 1: two's complement, but at 24
 /// bits biased by M as the survey's listings have it.
 #[inline(always)]
-pub(crate) fn pack_snorm2<const BITS: u32, L: Lane>(params: [L::Int; 2]) -> L::Int {
+pub(crate) fn pack_snorm2<const BITS: u32, V: Simd>(params: [V::Int; 2]) -> V::Int {
     if BITS == 24 {
-        let bias = L::Int::splat(snorm_max(12));
-        pack2::<BITS, L>(params.each(|p| p + bias))
+        let bias = V::Int::splat(snorm_max(12));
+        pack2::<BITS, V>(params.each(|p| p + bias))
     } else {
-        pack2::<BITS, L>(params)
+        pack2::<BITS, V>(params)
     }
 }
 
 /// The parameters of [`pack_snorm2`]. The one pattern out of range reads as its neighbour.
 #[inline(always)]
-pub(crate) fn unpack_snorm2<const BITS: u32, L: Lane>(code: L::Int) -> [L::Int; 2] {
-    let max = L::Int::splat(snorm_max(BITS / 2));
+pub(crate) fn unpack_snorm2<const BITS: u32, V: Simd>(code: V::Int) -> [V::Int; 2] {
+    let max = V::Int::splat(snorm_max(BITS / 2));
     if BITS == 24 {
-        unpack2::<BITS, L>(code).each(|p| (p - max).min(max))
+        unpack2::<BITS, V>(code).each(|p| (p - max).min(max))
     } else {
         [code, code.shr(BITS / 2)].each(|p| p.sign_extend(BITS / 2).max(-max))
     }

@@ -23,13 +23,13 @@
 
 use core::marker::PhantomData;
 
+use crate::formula::bits::{snorm_max, unorm_max};
+use crate::formula::half;
 use crate::formula::{
     Formula, One, Packed, Symmetric, Three, Words, mirror_decoded, mirror_point, sign_bit,
 };
-use crate::half;
-use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
-use crate::layout::{snorm_max, unorm_max};
-use crate::math::{chord_squared, dot, inv_sqrt, length_squared, normalize, sqrt};
+use crate::simd::math::{chord_squared, dot, inv_sqrt, length_squared, normalize, sqrt};
+use crate::simd::{Each, Simd, SimdInt, SimdMask, inlined};
 
 /// Three components on a grid.
 pub(crate) struct Cartesian<G>(PhantomData<G>);
@@ -51,39 +51,39 @@ pub(crate) trait Grid: 'static {
 
     /// The `n`th value for the largest component, `n` from 1 to [`LENGTHS`](Self::LENGTHS).
     #[inline(always)]
-    fn length<L: Lane>(n: L, step: L) -> L {
+    fn length<V: Simd>(n: V, step: V) -> V {
         n * step
     }
     /// Nearest grid point, ties to even.
     #[inline(always)]
-    fn nearest<L: Lane>(x: L, steps: L) -> L::Int {
+    fn nearest<V: Simd>(x: V, steps: V) -> V::Int {
         (x * steps).round_int()
     }
     #[inline(always)]
-    fn value<L: Lane>(i: L::Int, step: L) -> L {
-        L::from_int(i) * step
+    fn value<V: Simd>(i: V::Int, step: V) -> V {
+        V::from_int(i) * step
     }
     /// How far `x` is from the nearest value, but for what f32 rounds off.
     #[inline(always)]
-    fn off<L: Lane>(x: L, steps: L, step: L) -> L {
+    fn off<V: Simd>(x: V, steps: V, step: V) -> V {
         let places = x * steps;
         (places - places.round()).abs() * step
     }
     /// At most half the distance between the two values around `x`.
     #[inline(always)]
-    fn half_gap<L: Lane>(_: L, step: L) -> L {
-        step * L::splat(0.49 * Self::PITCH as f32)
+    fn half_gap<V: Simd>(_: V, step: V) -> V {
+        step * V::splat(0.49 * Self::PITCH as f32)
     }
     /// Of the points in the direction of `point`, which is not zero, the one whose length is
     /// nearest to 1.
     #[inline(always)]
-    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
-        integer_representative::<L>(point, Self::STEPS, Self::PITCH)
+    fn representative<V: Simd>(point: [V::Int; 3]) -> [V::Int; 3] {
+        integer_representative::<V>(point, Self::STEPS, Self::PITCH)
     }
-    fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L>
+    fn pack<V: Simd>(v: [V::Int; 3]) -> Packed<Cartesian<Self>, V>
     where
         Self: Sized;
-    fn unpack<L: Lane>(code: Packed<Cartesian<Self>, L>) -> [L::Int; 3]
+    fn unpack<V: Simd>(code: Packed<Cartesian<Self>, V>) -> [V::Int; 3]
     where
         Self: Sized;
 }
@@ -98,15 +98,15 @@ impl<const X: u32, const Y: u32, const Z: u32> Grid for Snorm<X, Y, Z> {
     const DISTINCT: bool = true;
 
     #[inline(always)]
-    fn pack<L: Lane>([x, y, z]: [L::Int; 3]) -> L::Int {
+    fn pack<V: Simd>([x, y, z]: [V::Int; 3]) -> V::Int {
         x.low(X) | y.low(Y).shl(X) | z.low(Z).shl(X + Y)
     }
     #[inline(always)]
-    fn unpack<L: Lane>(code: L::Int) -> [L::Int; 3] {
+    fn unpack<V: Simd>(code: V::Int) -> [V::Int; 3] {
         let field = inlined(
             #[inline(always)]
             |shift: u32, bits: u32| {
-                code.shr(shift).sign_extend(bits).max(L::Int::splat(-snorm_max(bits)))
+                code.shr(shift).sign_extend(bits).max(V::Int::splat(-snorm_max(bits)))
             },
         );
         [field(0, X), field(X, Y), field(X + Y, Z)]
@@ -123,12 +123,12 @@ impl Grid for Snorm16 {
     const DISTINCT: bool = false;
 
     #[inline(always)]
-    fn pack<L: Lane>(v: [L::Int; 3]) -> [L::Int; 3] {
+    fn pack<V: Simd>(v: [V::Int; 3]) -> [V::Int; 3] {
         v
     }
     #[inline(always)]
-    fn unpack<L: Lane>(code: [L::Int; 3]) -> [L::Int; 3] {
-        code.each(|c| c.sign_extend(16).max(L::Int::splat(-snorm_max(16))))
+    fn unpack<V: Simd>(code: [V::Int; 3]) -> [V::Int; 3] {
+        code.each(|c| c.sign_extend(16).max(V::Int::splat(-snorm_max(16))))
     }
 }
 
@@ -140,12 +140,12 @@ impl<const BITS: u32> Unorm<BITS> {
     const M: i32 = unorm_max(BITS);
 
     #[inline(always)]
-    fn index<L: Lane>(i: L::Int) -> L::Int {
-        (i + L::Int::splat(Self::M)).sar(1)
+    fn index<V: Simd>(i: V::Int) -> V::Int {
+        (i + V::Int::splat(Self::M)).sar(1)
     }
     #[inline(always)]
-    fn odd<L: Lane>(index: L::Int) -> L::Int {
-        index.low(BITS).shl(1) - L::Int::splat(Self::M)
+    fn odd<V: Simd>(index: V::Int) -> V::Int {
+        index.low(BITS).shl(1) - V::Int::splat(Self::M)
     }
 }
 
@@ -160,32 +160,32 @@ macro_rules! unorm_grid {
             const PITCH: i32 = 2;
 
             #[inline(always)]
-            fn length<L: Lane>(n: L, step: L) -> L {
-                (n + n - L::splat(1.0)) * step
+            fn length<V: Simd>(n: V, step: V) -> V {
+                (n + n - V::splat(1.0)) * step
             }
             #[inline(always)]
-            fn nearest<L: Lane>(x: L, steps: L) -> L::Int {
-                let half = steps * L::splat(0.5);
-                (x * half + half).round_int().shl(1) - L::Int::splat(Self::M)
+            fn nearest<V: Simd>(x: V, steps: V) -> V::Int {
+                let half = steps * V::splat(0.5);
+                (x * half + half).round_int().shl(1) - V::Int::splat(Self::M)
             }
             #[inline(always)]
-            fn off<L: Lane>(x: L, steps: L, step: L) -> L {
-                let places = (x * steps - L::splat(1.0)) * L::splat(0.5);
+            fn off<V: Simd>(x: V, steps: V, step: V) -> V {
+                let places = (x * steps - V::splat(1.0)) * V::splat(0.5);
                 (places - places.round()).abs() * (step + step)
             }
             #[inline(always)]
-            fn pack<L: Lane>(v: [L::Int; 3]) -> Packed<Cartesian<Self>, L> {
-                $pack(v.each(|i| Self::index::<L>(i)))
+            fn pack<V: Simd>(v: [V::Int; 3]) -> Packed<Cartesian<Self>, V> {
+                $pack(v.each(|i| Self::index::<V>(i)))
             }
             #[inline(always)]
-            fn unpack<L: Lane>(code: Packed<Cartesian<Self>, L>) -> [L::Int; 3] {
-                $unpack(code).each(|i| Self::odd::<L>(i))
+            fn unpack<V: Simd>(code: Packed<Cartesian<Self>, V>) -> [V::Int; 3] {
+                $unpack(code).each(|i| Self::odd::<V>(i))
             }
         }
     };
 }
 
-unorm_grid!(8, One, true, |[x, y, z]: [L::Int; 3]| x | y.shl(8) | z.shl(16), |code: L::Int| [
+unorm_grid!(8, One, true, |[x, y, z]: [V::Int; 3]| x | y.shl(8) | z.shl(16), |code: V::Int| [
     code,
     code.shr(8),
     code.shr(16)
@@ -202,157 +202,157 @@ impl Grid for Halves {
     const DISTINCT: bool = false;
 
     #[inline(always)]
-    fn length<L: Lane>(n: L, _: L) -> L {
-        (n + L::splat(1023.0)) * L::splat(1.0 / 2048.0)
+    fn length<V: Simd>(n: V, _: V) -> V {
+        (n + V::splat(1023.0)) * V::splat(1.0 / 2048.0)
     }
     #[inline(always)]
-    fn nearest<L: Lane>(x: L, _: L) -> L::Int {
+    fn nearest<V: Simd>(x: V, _: V) -> V::Int {
         half::nearest(x)
     }
     #[inline(always)]
-    fn value<L: Lane>(i: L::Int, _: L) -> L {
+    fn value<V: Simd>(i: V::Int, _: V) -> V {
         half::value(i)
     }
     #[inline(always)]
-    fn off<L: Lane>(x: L, _: L, _: L) -> L {
-        (half::value::<L>(half::nearest(x)) - x).abs()
+    fn off<V: Simd>(x: V, _: V, _: V) -> V {
+        (half::value::<V>(half::nearest(x)) - x).abs()
     }
     #[inline(always)]
-    fn half_gap<L: Lane>(x: L, _: L) -> L {
-        x.abs() * L::splat(0.99 / 4096.0)
+    fn half_gap<V: Simd>(x: V, _: V) -> V {
+        x.abs() * V::splat(0.99 / 4096.0)
     }
     #[inline(always)]
-    fn representative<L: Lane>(point: [L::Int; 3]) -> [L::Int; 3] {
+    fn representative<V: Simd>(point: [V::Int; 3]) -> [V::Int; 3] {
         // Each value is an odd integer times a power of two, or zero.
-        let values = point.each(|i| half::value::<L>(i));
+        let values = point.each(|i| half::value::<V>(i));
         let odd = point.each(
             #[inline(always)]
             |i| {
-                let mantissa = half::mantissa::<L>(i);
-                let lowest = L::from_int(mantissa & -mantissa).greater(L::splat(1.0));
-                L::from_int(mantissa) / lowest
+                let mantissa = half::mantissa::<V>(i);
+                let lowest = V::from_int(mantissa & -mantissa).greater(V::splat(1.0));
+                V::from_int(mantissa) / lowest
             },
         );
         let divisor = gcd(odd);
         let primitive = values.each(|c| c / divisor);
         // So many times, and powers of two, keep all mantissas below 2^11.
-        let room = (L::splat(2047.5) * divisor / odd[0].greater(odd[1]).greater(odd[2])).floor();
+        let room = (V::splat(2047.5) * divisor / odd[0].greater(odd[1]).greater(odd[2])).floor();
         let times = inv_sqrt(length_squared(primitive));
         // The least power of two for which that is enough, but none that would cut below 2^-24.
         let over = times / room;
         let power =
-            L::from_bits((over.to_bits() + L::Int::splat(0x7F_FFFF)) & L::Int::splat(0x7F80_0000));
+            V::from_bits((over.to_bits() + V::Int::splat(0x7F_FFFF)) & V::Int::splat(0x7F80_0000));
         let units = [0, 1, 2].each(
             #[inline(always)]
             |i: usize| {
-                let zero = odd[i].le(L::zero());
-                let unit = values[i].abs() / odd[i].greater(L::splat(1.0));
-                L::select(zero, L::splat(1.0), unit)
+                let zero = odd[i].le(V::zero());
+                let unit = values[i].abs() / odd[i].greater(V::splat(1.0));
+                V::select(zero, V::splat(1.0), unit)
             },
         );
-        let finest = L::splat(1.0 / 16_777_216.0) / units[0].lesser(units[1]).lesser(units[2]);
+        let finest = V::splat(1.0 / 16_777_216.0) / units[0].lesser(units[1]).lesser(units[2]);
         let power = power.greater(finest);
         // Either a multiple of that power, or the greatest multiple of the one below.
         let at_power = (times / power).round() * power;
-        let below = room * power * L::splat(0.5);
+        let below = room * power * V::splat(0.5);
         let use_below = (times - below).abs().lt((at_power - times).abs()) & finest.lt(power);
-        let power = L::select(use_below, power * L::splat(0.5), power);
-        let times = L::select(use_below, room, (times / power).round());
+        let power = V::select(use_below, power * V::splat(0.5), power);
+        let times = V::select(use_below, room, (times / power).round());
         // The largest component is 1 at most.
         let [x, y, z] = primitive.each(
             #[inline(always)]
             |c| (c * power).abs(),
         );
         let largest = x.greater(y).greater(z);
-        let too_long = L::splat(1.0).lt(largest * times);
-        let times = L::select(too_long, times - L::splat(1.0), times);
-        let times = L::select(times.lt(L::splat(0.5)), L::splat(0.5), times);
+        let too_long = V::splat(1.0).lt(largest * times);
+        let times = V::select(too_long, times - V::splat(1.0), times);
+        let times = V::select(times.lt(V::splat(0.5)), V::splat(0.5), times);
         primitive.each(
             #[inline(always)]
             |c| half::nearest(c * power * times),
         )
     }
     #[inline(always)]
-    fn pack<L: Lane>(v: [L::Int; 3]) -> [L::Int; 3] {
-        v.each(|i| half::to_bits::<L>(i))
+    fn pack<V: Simd>(v: [V::Int; 3]) -> [V::Int; 3] {
+        v.each(|i| half::to_bits::<V>(i))
     }
     #[inline(always)]
-    fn unpack<L: Lane>(code: [L::Int; 3]) -> [L::Int; 3] {
-        code.each(|bits| half::from_bits::<L>(bits, half::GREATEST))
+    fn unpack<V: Simd>(code: [V::Int; 3]) -> [V::Int; 3] {
+        code.each(|bits| half::from_bits::<V>(bits, half::GREATEST))
     }
 }
 
 impl<G: Grid> Cartesian<G> {
     #[inline(always)]
-    fn nearest<L: Lane>(v: [L; 3]) -> [L::Int; 3] {
+    fn nearest<V: Simd>(v: [V; 3]) -> [V::Int; 3] {
         [0, 1, 2].each(
             #[inline(always)]
-            |i: usize| G::nearest(v[i], L::splat(G::STEPS[i])),
+            |i: usize| G::nearest(v[i], V::splat(G::STEPS[i])),
         )
     }
 
     #[inline(always)]
-    fn values<L: Lane>(point: [L::Int; 3]) -> [L; 3] {
+    fn values<V: Simd>(point: [V::Int; 3]) -> [V; 3] {
         [0, 1, 2].each(
             #[inline(always)]
-            |i: usize| G::value(point[i], L::splat(1.0 / G::STEPS[i])),
+            |i: usize| G::value(point[i], V::splat(1.0 / G::STEPS[i])),
         )
     }
 
     /// The point of a code; (0, 0, 0) is +Z.
     #[inline(always)]
-    fn point<L: Lane>(code: Packed<Self, L>) -> [L::Int; 3] {
-        let [x, y, z] = G::unpack::<L>(code);
-        let is_zero = (x | y | z).eq(L::Int::splat(0));
-        let [_, _, pole] = Self::nearest([L::zero(), L::zero(), L::splat(1.0)]);
-        [x, y, L::Int::select(is_zero, pole, z)]
+    fn point<V: Simd>(code: Packed<Self, V>) -> [V::Int; 3] {
+        let [x, y, z] = G::unpack::<V>(code);
+        let is_zero = (x | y | z).eq(V::Int::splat(0));
+        let [_, _, pole] = Self::nearest([V::zero(), V::zero(), V::splat(1.0)]);
+        [x, y, V::Int::select(is_zero, pole, z)]
     }
 
     #[inline(always)]
-    fn unit<L: Lane>(values: [L; 3]) -> [L; 3] {
-        let zero = length_squared(values).le(L::zero());
+    fn unit<V: Simd>(values: [V; 3]) -> [V; 3] {
+        let zero = length_squared(values).le(V::zero());
         let [x, y, z] = values;
-        normalize([x, y, L::select(zero, L::splat(1.0), z)])
+        normalize([x, y, V::select(zero, V::splat(1.0), z)])
     }
 }
 
 /// [`Grid::representative`] where the values are integers over `steps`.
 #[inline(always)]
-fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i32) -> [L::Int; 3] {
+fn integer_representative<V: Simd>(point: [V::Int; 3], steps: [f32; 3], pitch: i32) -> [V::Int; 3] {
     let divisor = gcd(point.each(
         #[inline(always)]
-        |i| L::from_int(i.abs()),
+        |i| V::from_int(i.abs()),
     ));
     let primitive = point.each(
         #[inline(always)]
-        |i| L::from_int(i) / divisor,
+        |i| V::from_int(i) / divisor,
     );
     let values = [0, 1, 2].each(
         #[inline(always)]
-        |i: usize| primitive[i] * L::splat(1.0 / steps[i]),
+        |i: usize| primitive[i] * V::splat(1.0 / steps[i]),
     );
     // As many times as bring it nearest to 1, but not beyond the grid.
     let times = inv_sqrt(length_squared(values));
     let room = [0, 1, 2].each(
         #[inline(always)]
-        |i: usize| L::splat(steps[i] + 0.5) / primitive[i].abs().greater(L::splat(0.01)),
+        |i: usize| V::splat(steps[i] + 0.5) / primitive[i].abs().greater(V::splat(0.01)),
     );
     let room = room[0].lesser(room[1]).lesser(room[2]);
     let times = if steps[2] < steps[0] {
         // Too close for f32 between twice and three times (244, 328, 9) of snorm11-11-10, for one.
         let less = times.floor();
-        let half_more = (less + less).round_int() + L::Int::splat(1);
+        let half_more = (less + less).round_int() + V::Int::splat(1);
         let primitive = primitive.each(
             #[inline(always)]
             |c| c.round_int(),
         );
-        let more = is_below_two::<L>(primitive, half_more, steps);
-        L::select(more, less + L::splat(1.0), less).lesser(room.floor())
+        let more = is_below_two::<V>(primitive, half_more, steps);
+        V::select(more, less + V::splat(1.0), less).lesser(room.floor())
     } else if pitch == 1 {
         times.round().lesser(room.floor())
     } else {
         // Odd points have only odd multiples.
-        let (half, one) = (L::splat(0.5), L::splat(1.0));
+        let (half, one) = (V::splat(0.5), V::splat(1.0));
         let pairs = ((times - one) * half).round().lesser(((room - one) * half).floor());
         pairs + pairs + one
     };
@@ -364,14 +364,14 @@ fn integer_representative<L: Lane>(point: [L::Int; 3], steps: [f32; 3], pitch: i
 
 /// Whether so many times a point is shorter than 2, exactly, where z has fewer steps than x and y.
 #[inline(always)]
-fn is_below_two<L: Lane>(point: [L::Int; 3], times: L::Int, steps: [f32; 3]) -> L::Mask {
+fn is_below_two<V: Simd>(point: [V::Int; 3], times: V::Int, steps: [f32; 3]) -> V::Mask {
     // In steps of x, with (most / least)^2 = whole + rest / least^2:
     // (x^2 + y^2 + whole z^2 + rest z^2 / least^2) times^2 < 4 most^2.
     let [most, least] = [steps[0] as i64, steps[2] as i64].map(|steps| steps * steps);
     let (whole, rest) = (most / least, most % least);
     let int = inlined(
         #[inline(always)]
-        |i: i64| L::Int::splat(i as i32),
+        |i: i64| V::Int::splat(i as i32),
     );
     let square = times * times;
     let [x, y, z] = point.each(
@@ -387,19 +387,19 @@ fn is_below_two<L: Lane>(point: [L::Int; 3], times: L::Int, steps: [f32; 3]) -> 
 
 /// The greatest common divisor of three integers from 0 to 2^16, not all of them zero.
 #[inline(always)]
-fn gcd<L: Lane>([mut a, mut b, mut c]: [L; 3]) -> L {
-    let zero = L::zero();
+fn gcd<V: Simd>([mut a, mut b, mut c]: [V; 3]) -> V {
+    let zero = V::zero();
     loop {
         let (least, most) = (b.lesser(c), b.greater(c));
         if !zero.lt(most).any() {
             return a;
         }
         // By the least that is not zero; what is left may be below zero.
-        let by = L::select(zero.lt(least), least, L::select(zero.lt(most), most, a));
-        let per = L::splat(1.0) / by;
+        let by = V::select(zero.lt(least), least, V::select(zero.lt(most), most, a));
+        let per = V::splat(1.0) / by;
         let rest = inlined(
             #[inline(always)]
-            |x: L| (x - (x * per).round() * by).abs(),
+            |x: V| (x - (x * per).round() * by).abs(),
         );
         (a, b, c) = (by, rest(a), rest(most));
     }
@@ -410,50 +410,50 @@ const WRAP: f32 = 4_294_967_296.0;
 
 /// x in units of 2^-32, without what is before the point. For |x| < 2^10.
 #[inline(always)]
-fn wrapping_fraction<L: Lane>(x: L) -> L::Int {
-    let high = (x * L::splat(2048.0)).round();
-    let low = (x - high * L::splat(1.0 / 2048.0)) * L::splat(WRAP);
+fn wrapping_fraction<V: Simd>(x: V) -> V::Int {
+    let high = (x * V::splat(2048.0)).round();
+    let low = (x - high * V::splat(1.0 / 2048.0)) * V::splat(WRAP);
     high.round_int().shl(21) + low.round_int()
 }
 
 /// One target, seen along its largest component.
-struct Search<L: Lane> {
-    target: [L; 3],
+struct Search<V: Simd> {
+    target: [V; 3],
     /// The components over the largest one's magnitude.
-    slope: [L; 3],
+    slope: [V; 3],
     /// Their sum of squares.
-    stretch: L,
+    stretch: V,
     /// The steps on the axis of the largest component, and one step.
-    steps: L,
-    step: L,
+    steps: V,
+    step: V,
     /// Whether that is x, or y.
-    largest: [L::Mask; 2],
+    largest: [V::Mask; 2],
     /// Of the other two axes the slope, the steps, and one step.
-    others: [[L; 3]; 2],
+    others: [[V; 3]; 2],
 }
 
-impl<L: Lane> Search<L> {
+impl<V: Simd> Search<V> {
     #[inline(always)]
-    fn new<G: Grid>(v: [L; 3]) -> Self {
+    fn new<G: Grid>(v: [V; 3]) -> Self {
         // Bring the length between sqrt(1/2) and sqrt(2) by a power of two.
-        let exponent = length_squared(v).to_bits().sar(23) - L::Int::splat(126);
-        let scale = L::from_bits((L::Int::splat(127) - exponent.sar(1)).shl(23));
+        let exponent = length_squared(v).to_bits().sar(23) - V::Int::splat(126);
+        let scale = V::from_bits((V::Int::splat(127) - exponent.sar(1)).shl(23));
         let v = v.each(|c| c * scale);
         // A decoded vector is not divided again, so that its own code is at distance zero.
         let unit = normalize(v);
-        let off = (length_squared(v) - L::splat(1.0)).abs();
-        let decoded = off.lt(L::splat(6e-7));
-        let target = [0, 1, 2].each(|i: usize| L::select(decoded, v[i], unit[i]));
+        let off = (length_squared(v) - V::splat(1.0)).abs();
+        let decoded = off.lt(V::splat(6e-7));
+        let target = [0, 1, 2].each(|i: usize| V::select(decoded, v[i], unit[i]));
         let [x, y, z] = target.each(|c| c.abs());
         let largest = x.greater(y).greater(z);
         let (is_x, is_y) = (largest.le(x), largest.le(y));
         let slope = target.each(|c| c / largest);
         let [on_x, on_y, on_z] = [0, 1, 2]
-            .each(|i: usize| [slope[i], L::splat(G::STEPS[i]), L::splat(1.0 / G::STEPS[i])]);
+            .each(|i: usize| [slope[i], V::splat(G::STEPS[i]), V::splat(1.0 / G::STEPS[i])]);
         let pick = inlined(
             #[inline(always)]
-            |mask, yes: [L; 3], no: [L; 3]| {
-                [0, 1, 2].each(|i: usize| L::select(mask, yes[i], no[i]))
+            |mask, yes: [V; 3], no: [V; 3]| {
+                [0, 1, 2].each(|i: usize| V::select(mask, yes[i], no[i]))
             },
         );
         let [_, steps, step] = pick(is_x, on_x, pick(is_y, on_y, on_z));
@@ -472,22 +472,22 @@ impl<L: Lane> Search<L> {
     /// angle is below the chord, but for what f32 rounds off. Gives the square of that sine and, over
     /// the length on the largest axis, how far off the point can be on each of the others.
     #[inline(always)]
-    fn bounds(&self, distance: L) -> [L; 2] {
-        let sine = sqrt(distance) * L::splat(1.01) + L::splat(6e-7);
+    fn bounds(&self, distance: V) -> [V; 2] {
+        let sine = sqrt(distance) * V::splat(1.01) + V::splat(6e-7);
         // Stretch times the sine, and a little for the length of the offset itself.
-        let off = self.stretch * sine * L::splat(1.3);
-        [sine * sine, L::select(sine.lt(L::splat(0.1)), off, L::splat(f32::INFINITY))]
+        let off = self.stretch * sine * V::splat(1.3);
+        [sine * sine, V::select(sine.lt(V::splat(0.1)), off, V::splat(f32::INFINITY))]
     }
 
     /// The nearest point of a grid of whole steps, or a multiple of it.
     #[inline(always)]
-    fn nearest_whole<G: Grid>(&self) -> [L::Int; 3] {
+    fn nearest_whole<G: Grid>(&self) -> [V::Int; 3] {
         let (mut point, sure) = self.nearest_corner::<G, false>();
         if (!sure).any() {
             let (nearest, _) = self.nearest_corner::<G, true>();
             point = [0, 1, 2].each(
                 #[inline(always)]
-                |i: usize| L::Int::select(sure, point[i], nearest[i]),
+                |i: usize| V::Int::select(sure, point[i], nearest[i]),
             );
         }
         point
@@ -496,13 +496,13 @@ impl<L: Lane> Search<L> {
     /// At each length the target's ray passes a cell of the grid. Gives the nearest of the corners of
     /// all cells, or unless `ALL` of those that rounding gives, and whether these are enough.
     #[inline(always)]
-    fn nearest_corner<G: Grid, const ALL: bool>(&self) -> ([L::Int; 3], L::Mask) {
+    fn nearest_corner<G: Grid, const ALL: bool>(&self) -> ([V::Int; 3], V::Mask) {
         let most = G::STEPS[0];
         let equal = G::STEPS[2] == most;
         let [[p, p_steps, _], [q, q_steps, _]] = self.others;
-        let one = L::splat(1.0);
+        let one = V::splat(1.0);
         let lengths = G::LENGTHS + 1 - most as i32 / G::SHORTER;
-        let first = (self.steps * L::splat(1.0 / G::SHORTER as f32)).floor();
+        let first = (self.steps * V::splat(1.0 / G::SHORTER as f32)).floor();
         // How far the ray is from the rounded corner: fractions of 2^32 pitches, which wrap.
         let rises = [p * (p_steps / self.steps), q * (q_steps / self.steps)];
         let [mut a, mut b] = rises.each(
@@ -512,7 +512,7 @@ impl<L: Lane> Search<L> {
                 if G::PITCH == 1 {
                     return from;
                 }
-                from - wrapping_fraction((rise + one) * L::splat(0.5))
+                from - wrapping_fraction((rise + one) * V::splat(0.5))
             },
         );
         let [rise_a, rise_b] = rises.each(
@@ -521,7 +521,7 @@ impl<L: Lane> Search<L> {
         );
         // The square of the tangent of the angle between point and target, but for a factor, is
         // (x (x + skew y) + other y^2) / (length - (x lean_x + y lean_y))^2.
-        let unit = L::splat(G::PITCH as f32 / WRAP);
+        let unit = V::splat(G::PITCH as f32 / WRAP);
         let ratio = p_steps / q_steps;
         let scale = one + q * q;
         let skew = -(p * q + p * q) / scale * ratio;
@@ -529,13 +529,13 @@ impl<L: Lane> Search<L> {
         let lean = unit * self.steps / self.stretch;
         let (lean_x, lean_y) = (lean * p / p_steps, lean * q / q_steps);
         // With it the length, x and y.
-        let mut best = [L::splat(f32::MAX), one, one, L::zero(), L::zero()];
+        let mut best = [V::splat(f32::MAX), one, one, V::zero(), V::zero()];
         let mut n = first;
         for _ in 0..lengths {
             let here = G::length(n, one);
             let consider = inlined(
                 #[inline(always)]
-                |best: &mut [L; 5], x: L, y: L| {
+                |best: &mut [V; 5], x: V, y: V| {
                     let [square, along, ..] = *best;
                     let across = x * (x + skew * y) + other * y * y;
                     let reach = here - (x * lean_x + y * lean_y);
@@ -545,16 +545,16 @@ impl<L: Lane> Search<L> {
                         nearer = nearer & here.le(self.steps);
                     }
                     for (best, now) in best.iter_mut().zip([across, reach, here, x, y]) {
-                        *best = L::select(nearer, now, *best);
+                        *best = V::select(nearer, now, *best);
                     }
                 },
             );
-            let [x, y] = [a, b].each(L::from_int);
+            let [x, y] = [a, b].each(V::from_int);
             consider(&mut best, x, y);
             if ALL {
                 let [far_x, far_y] = [x, y].each(
                     #[inline(always)]
-                    |x| x - L::splat(WRAP).negate_where_negative(x),
+                    |x| x - V::splat(WRAP).negate_where_negative(x),
                 );
                 consider(&mut best, far_x, y);
                 consider(&mut best, x, far_y);
@@ -568,13 +568,13 @@ impl<L: Lane> Search<L> {
             #[inline(always)]
             |s| s * at,
         );
-        let [x, y] = if ALL { [x * unit / p_steps, y * unit / q_steps] } else { [L::zero(); 2] };
+        let [x, y] = if ALL { [x * unit / p_steps, y * unit / q_steps] } else { [V::zero(); 2] };
         let [is_x, is_y] = self.largest;
-        let zero = L::zero();
+        let zero = V::zero();
         let off = [
-            L::select(is_x, zero, x),
-            L::select(is_x, x, L::select(is_y, zero, y)),
-            L::select(is_x | is_y, y, zero),
+            V::select(is_x, zero, x),
+            V::select(is_x, x, V::select(is_y, zero, y)),
+            V::select(is_x | is_y, y, zero),
         ];
         let point = [0, 1, 2].each(
             #[inline(always)]
@@ -587,30 +587,30 @@ impl<L: Lane> Search<L> {
     /// Whether the nearest corner is a rounded one, if the tangent of the nearest of those is, squared and
     /// in the units of [`nearest_corner`](Self::nearest_corner), `square`.
     #[inline(always)]
-    fn surely_rounded<G: Grid>(&self, square: L) -> L::Mask {
+    fn surely_rounded<G: Grid>(&self, square: V) -> V::Mask {
         let [[p, p_steps, _], [q, ..]] = self.others;
         let [pp, qq] = [p * p, q * q];
-        let one = L::splat(1.0);
-        let unit = L::splat(G::PITCH as f32 / WRAP);
+        let one = V::splat(1.0);
+        let unit = V::splat(G::PITCH as f32 / WRAP);
         let tangent = unit * self.steps / (p_steps * self.stretch);
         let tangent_squared = tangent * tangent * (one + qq) * square;
         // What is no rounded corner is at least half a pitch off on one axis.
         let half = 0.23 * (G::PITCH * G::PITCH) as f32 / (G::STEPS[0] * G::STEPS[0]);
-        (tangent_squared * self.stretch * (one + pp.greater(qq))).lt(L::splat(half))
+        (tangent_squared * self.stretch * (one + pp.greater(qq))).lt(V::splat(half))
     }
 
     /// The nearest point of a grid finer than f32; of those that decode alike, the one whose length is
     /// nearest to 1.
     #[inline(always)]
-    fn nearest<G: Grid>(&self) -> [L::Int; 3] {
-        let mut found = [L::Int::splat(0); 3];
-        let mut distance = L::splat(4.0);
-        let mut off_unit = L::splat(4.0);
-        let per_stretch = L::splat(1.0) / self.stretch;
+    fn nearest<G: Grid>(&self) -> [V::Int; 3] {
+        let mut found = [V::Int::splat(0); 3];
+        let mut distance = V::splat(4.0);
+        let mut off_unit = V::splat(4.0);
+        let per_stretch = V::splat(1.0) / self.stretch;
         let [mut within, mut reach] = self.bounds(distance);
         let first = (G::STEPS[0] as i32 / G::SHORTER).max(1);
         for n in (first..=G::LENGTHS).rev() {
-            let length = G::length(L::splat(n as f32), self.step);
+            let length = G::length(V::splat(n as f32), self.step);
             let [a, b] = self.others.each(
                 #[inline(always)]
                 |[slope, steps, step]| G::off(slope * length, steps, step),
@@ -624,32 +624,32 @@ impl<L: Lane> Search<L> {
             // the nearest: components may go the other way, if half a gap is near enough.
             let gap = [0, 1, 2].each(
                 #[inline(always)]
-                |i: usize| G::half_gap(ideal[i], L::splat(1.0 / G::STEPS[i])),
+                |i: usize| G::half_gap(ideal[i], V::splat(1.0 / G::STEPS[i])),
             );
             let least = gap[0].lesser(gap[1]).lesser(gap[2]);
             let other_ways = least.le(reach_here).any();
             let mut consider = inlined(
                 #[inline(always)]
-                |point: [L::Int; 3]| {
-                    let values = Cartesian::<G>::values::<L>(point);
+                |point: [V::Int; 3]| {
+                    let values = Cartesian::<G>::values::<V>(point);
                     let offset = [0, 1, 2].each(|i: usize| values[i] - ideal[i]);
                     let square = length_squared(offset);
                     let along = dot(offset, self.slope);
                     let across = square - along * along * per_stretch;
                     let near =
-                        across.le(length_squared(values) * within) & length.le(L::splat(1.0));
+                        across.le(length_squared(values) * within) & length.le(V::splat(1.0));
                     if near.any() {
                         // As f32 does not tell neighbours apart, only canonical points compete.
-                        let point = G::representative::<L>(point);
-                        let values = Cartesian::<G>::values::<L>(point);
+                        let point = G::representative::<V>(point);
+                        let values = Cartesian::<G>::values::<V>(point);
                         let there = chord_squared(Cartesian::<G>::unit(values), self.target);
-                        let off = (sqrt(length_squared(values)) - L::splat(1.0)).abs();
+                        let off = (sqrt(length_squared(values)) - V::splat(1.0)).abs();
                         let alike = distance.le(there) & there.le(distance) & off.lt(off_unit);
                         let better = near & (there.lt(distance) | alike);
-                        distance = L::select(better, there, distance);
-                        off_unit = L::select(better, off, off_unit);
+                        distance = V::select(better, there, distance);
+                        off_unit = V::select(better, off, off_unit);
                         found =
-                            [0, 1, 2].each(|i: usize| L::Int::select(better, point[i], found[i]));
+                            [0, 1, 2].each(|i: usize| V::Int::select(better, point[i], found[i]));
                         [within, reach] = self.bounds(distance);
                     }
                 },
@@ -658,13 +658,13 @@ impl<L: Lane> Search<L> {
             consider(rounded);
             if other_ways {
                 // The corners but for the rounded one: the largest component stays as it is.
-                let values = Cartesian::<G>::values::<L>(rounded);
+                let values = Cartesian::<G>::values::<V>(rounded);
                 let other = [0, 1, 2].each(
                     #[inline(always)]
                     |i: usize| {
                         let count = inlined(
                             #[inline(always)]
-                            |mask| L::Int::select(mask, L::Int::splat(G::PITCH), L::Int::splat(0)),
+                            |mask| V::Int::select(mask, V::Int::splat(G::PITCH), V::Int::splat(0)),
                         );
                         let up = count(values[i].lt(ideal[i]));
                         let down = count(ideal[i].lt(values[i]));
@@ -686,45 +686,45 @@ impl<G: Grid> Formula for Cartesian<G> {
     type Words = G::Words;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> Packed<Self, L> {
-        G::pack::<L>(Self::nearest(normalize(v)))
+    fn encode<V: Simd>(v: [V; 3]) -> Packed<Self, V> {
+        G::pack::<V>(Self::nearest(normalize(v)))
     }
 
     #[inline(never)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> Packed<Self, L> {
-        L::compiled_for(
+    fn encode_precise<V: Simd>(v: [V; 3]) -> Packed<Self, V> {
+        V::compiled_for(
             #[inline(always)]
             || {
                 let search = Search::new::<G>(v);
                 let point = if G::DISTINCT {
-                    G::representative::<L>(search.nearest_whole::<G>())
+                    G::representative::<V>(search.nearest_whole::<G>())
                 } else {
                     search.nearest::<G>()
                 };
-                G::pack::<L>(point)
+                G::pack::<V>(point)
             },
         )
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: Packed<Self, L>) -> [L; 3] {
-        Self::unit(Self::values::<L>(G::unpack::<L>(code)))
+    fn decode<V: Simd>(code: Packed<Self, V>) -> [V; 3] {
+        Self::unit(Self::values::<V>(G::unpack::<V>(code)))
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: Packed<Self, L>) -> Packed<Self, L> {
+    fn canonical<V: Simd>(code: Packed<Self, V>) -> Packed<Self, V> {
         if !G::DISTINCT {
-            return Self::encode_precise(Self::decode::<L>(code));
+            return Self::encode_precise(Self::decode::<V>(code));
         }
-        G::pack::<L>(G::representative::<L>(Self::point::<L>(code)))
+        G::pack::<V>(G::representative::<V>(Self::point::<V>(code)))
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: Packed<Self, L>, flips: [bool; 3]) -> Packed<Self, L> {
+    fn mirror<V: Simd>(code: Packed<Self, V>, flips: [bool; 3]) -> Packed<Self, V> {
         if !G::DISTINCT {
-            return mirror_decoded::<Self, L>(code, flips);
+            return mirror_decoded::<Self, V>(code, flips);
         }
-        G::pack::<L>(G::representative::<L>(mirror_point(Self::point::<L>(code), flips)))
+        G::pack::<V>(G::representative::<V>(mirror_point(Self::point::<V>(code), flips)))
     }
 }
 
@@ -732,10 +732,10 @@ impl<const X: u32, const Y: u32, const Z: u32> Symmetric for Cartesian<Snorm<X, 
     const ENTRIES: usize = 1 << (X + Y + Z - 3);
 
     #[inline(always)]
-    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
-        let point = <Snorm<X, Y, Z> as Grid>::unpack::<L>(code);
+    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
+        let point = <Snorm<X, Y, Z> as Grid>::unpack::<V>(code);
         let [x, y, z] = point.each(|i| i.abs());
-        (x | y.shl(X - 1) | z.shl(X + Y - 2), point.each(|i| i.lt(L::Int::splat(0))))
+        (x | y.shl(X - 1) | z.shl(X + Y - 2), point.each(|i| i.lt(V::Int::splat(0))))
     }
 }
 
@@ -753,46 +753,46 @@ impl Formula for BestFit {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         let [x, y, z] = v.each(|c| c.abs());
         let (a, rest) = (x.greater(y), x.lesser(y));
         let (a, b, c) = (a.greater(z), a.lesser(z).greater(rest), rest.lesser(z));
         let texel = inlined(
             #[inline(always)]
-            |t: L| (t * L::splat(512.0)).floor().round_int().min(L::Int::splat(511)),
+            |t: V| (t * V::splat(512.0)).floor().round_int().min(V::Int::splat(511)),
         );
-        let (u, v_texel) = (texel(b / a), texel(c / b.greater(L::splat(1e-30))));
-        let largest = L::from_int(L::gather(BEST_FIT, v_texel.shl(9) + u));
-        let scale = largest * L::splat(1.0 / 255.0) / a;
-        let steps = L::splat(255.0);
+        let (u, v_texel) = (texel(b / a), texel(c / b.greater(V::splat(1e-30))));
+        let largest = V::from_int(V::gather(BEST_FIT, v_texel.shl(9) + u));
+        let scale = largest * V::splat(1.0 / 255.0) / a;
+        let steps = V::splat(255.0);
         let point = v.each(
             #[inline(always)]
             |c| Unorm::<8>::nearest(c * scale, steps),
         );
-        Unorm::<8>::pack::<L>(Unorm::<8>::representative::<L>(point))
+        Unorm::<8>::pack::<V>(Unorm::<8>::representative::<V>(point))
     }
 
     #[inline(never)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        L::compiled_for(
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
+        V::compiled_for(
             #[inline(always)]
             || Cartesian::<Unorm<8>>::encode_precise(v),
         )
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
         Cartesian::<Unorm<8>>::decode(code)
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        Cartesian::<Unorm<8>>::canonical::<L>(code)
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        Cartesian::<Unorm<8>>::canonical::<V>(code)
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
-        Cartesian::<Unorm<8>>::mirror::<L>(code, flips)
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+        Cartesian::<Unorm<8>>::mirror::<V>(code, flips)
     }
 }
 
@@ -803,26 +803,26 @@ impl Formula for Floats {
     type Words = Three;
 
     #[inline(always)]
-    fn prepare<L: Lane>(v: [L; 3]) -> [L; 3] {
+    fn prepare<V: Simd>(v: [V; 3]) -> [V; 3] {
         v
     }
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> [L::Int; 3] {
+    fn encode<V: Simd>(v: [V; 3]) -> [V::Int; 3] {
         v.each(|c| c.to_bits())
     }
     #[inline(always)]
-    fn decode<L: Lane>(code: [L::Int; 3]) -> [L; 3] {
-        code.each(L::from_bits)
+    fn decode<V: Simd>(code: [V::Int; 3]) -> [V; 3] {
+        code.each(V::from_bits)
     }
     #[inline(always)]
-    fn canonical<L: Lane>(code: [L::Int; 3]) -> [L::Int; 3] {
+    fn canonical<V: Simd>(code: [V::Int; 3]) -> [V::Int; 3] {
         code
     }
     #[inline(always)]
-    fn mirror<L: Lane>([x, y, z]: [L::Int; 3], flips: [bool; 3]) -> [L::Int; 3] {
+    fn mirror<V: Simd>([x, y, z]: [V::Int; 3], flips: [bool; 3]) -> [V::Int; 3] {
         let [flip_x, flip_y, flip_z] = flips.each(
             #[inline(always)]
-            |flip| sign_bit::<L>(flip),
+            |flip| sign_bit::<V>(flip),
         );
         [x ^ flip_x, y ^ flip_y, z ^ flip_z]
     }

@@ -4,7 +4,7 @@ use crate::batch::Soa;
 use crate::codec::{Codec, Format};
 use crate::error::LengthMismatch;
 use crate::formula::direction;
-use crate::math::{atan2_half_turns, inv_sqrt};
+use crate::simd::math::{atan2_half_turns, inv_sqrt};
 
 /// The errors of codes, which are the angles between the vectors they were made of and those that they decode
 /// to. See [`ErrorReport::of`].

@@ -1,21 +1,22 @@
-//! The eight- and sixteen-lane forms of [`Lane`] on AVX2 and AVX-512, through `fearless_simd`.
+//! The eight- and sixteen-lane forms of [`Simd`] on AVX2 and AVX-512, through `fearless_simd`.
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use bytemuck::cast_slice;
 use fearless_simd::prelude::*;
+use fearless_simd::{Simd as _, SimdMask as _};
 use fearless_simd::{
     f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u8x32, u8x64, u32x8, u32x16,
 };
 
-use crate::lane::{Lane, LaneInt, LaneMask, MOST_COMPONENTS, look_up, look_up3, look_up4};
-use crate::stores_x86::Streaming;
-use crate::streaming::Fence;
-use crate::x86::Tier;
+use crate::simd::stream::Fence;
+use crate::simd::x86::CpuLevel;
+use crate::simd::x86::stores::Streaming;
+use crate::simd::{MOST_COMPONENTS, Simd, SimdInt, SimdMask, look_up, look_up3, look_up4};
 
 macro_rules! operators {
     ($($type:ident: $($trait:ident $method:ident),*;)*) => { $($(
-        impl<T: Tier> $trait for $type<T> {
+        impl<T: CpuLevel> $trait for $type<T> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
@@ -33,11 +34,11 @@ macro_rules! lanes {
         $mask:ident: $mask32s:ident
     ) => {
         #[derive(Clone, Copy)]
-        pub(crate) struct $float<T: Tier>($f32s<T::Simd>);
+        pub(crate) struct $float<T: CpuLevel>($f32s<T::Simd>);
         #[derive(Clone, Copy)]
-        pub(crate) struct $int<T: Tier>($i32s<T::Simd>);
+        pub(crate) struct $int<T: CpuLevel>($i32s<T::Simd>);
         #[derive(Clone, Copy)]
-        pub(crate) struct $mask<T: Tier>($mask32s<T::Simd>);
+        pub(crate) struct $mask<T: CpuLevel>($mask32s<T::Simd>);
 
         operators! {
             $float: Add add, Sub sub, Mul mul, Div div;
@@ -45,7 +46,7 @@ macro_rules! lanes {
             $mask: BitAnd bitand, BitOr bitor;
         }
 
-        impl<T: Tier> Neg for $float<T> {
+        impl<T: CpuLevel> Neg for $float<T> {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
@@ -53,7 +54,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: Tier> Neg for $int<T> {
+        impl<T: CpuLevel> Neg for $int<T> {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
@@ -61,7 +62,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: Tier> Not for $mask<T> {
+        impl<T: CpuLevel> Not for $mask<T> {
             type Output = Self;
             #[inline(always)]
             fn not(self) -> Self {
@@ -69,7 +70,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: Tier<Simd: Streaming<$n>>> Lane for $float<T> {
+        impl<T: CpuLevel<Simd: Streaming<$n>>> Simd for $float<T> {
             type Int = $int<T>;
             type Mask = $mask<T>;
             type Block<B: Copy + 'static> = [B; $n];
@@ -208,7 +209,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: Tier> $int<T> {
+        impl<T: CpuLevel> $int<T> {
             /// The first `C` of `N` columns; as many rows as lanes stand one after the other.
             #[inline(always)]
             fn columns<const N: usize, const C: usize>(rows: &[i32]) -> [Self; C] {
@@ -224,7 +225,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: Tier> LaneInt for $int<T> {
+        impl<T: CpuLevel> SimdInt for $int<T> {
             type Mask = $mask<T>;
 
             #[inline(always)]
@@ -258,7 +259,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: Tier> LaneMask for $mask<T> {
+        impl<T: CpuLevel> SimdMask for $mask<T> {
             #[inline(always)]
             fn any(self) -> bool {
                 self.0.any_true()
@@ -340,5 +341,5 @@ const fn put(picks: &mut [u8], to: usize, from: usize) {
     }
 }
 
-lanes!(8, F8: f32x8, I8: i32x8 | u32x8 | u8x32, M8: mask32x8);
-lanes!(16, F16: f32x16, I16: i32x16 | u32x16 | u8x64, M16: mask32x16);
+lanes!(8, F32x8: f32x8, I32x8: i32x8 | u32x8 | u8x32, Mask32x8: mask32x8);
+lanes!(16, F32x16: f32x16, I32x16: i32x16 | u32x16 | u8x64, Mask32x16: mask32x16);

@@ -1,6 +1,6 @@
 //! IEEE 754 half precision on lanes.
 
-use crate::lane::{Lane, LaneInt};
+use crate::simd::{Simd, SimdInt};
 
 /// The greatest finite half, 65504.
 pub(crate) const GREATEST: i32 = 0x7BFF;
@@ -12,50 +12,50 @@ pub(crate) const ONE: i32 = 0x3C00;
 ///
 /// The nearest to `x`, ties to even, for |x| < 65520.
 #[inline(always)]
-pub(crate) fn nearest<L: Lane>(x: L) -> L::Int {
+pub(crate) fn nearest<V: Simd>(x: V) -> V::Int {
     let bits = x.abs().to_bits();
     // Normal: round the 13 low bits of the mantissa away, then move the exponent's bias from 127 to
     // 15.
     let even = bits.shr(13).low(1);
-    let normal = (bits + L::Int::splat(0xFFF) + even).shr(13) - L::Int::splat(112 << 10);
+    let normal = (bits + V::Int::splat(0xFFF) + even).shr(13) - V::Int::splat(112 << 10);
     // Subnormal: in [0.5, 1) the mantissa counts units of 2^-24.
-    let subnormal = (x.abs() + L::splat(0.5)).to_bits() - L::Int::splat(0.5f32.to_bits() as i32);
-    let least_normal = L::Int::splat(113 << 23); // 2^-14
-    let magnitude = L::Int::select(bits.lt(least_normal), subnormal, normal);
-    L::Int::select(x.lt(L::zero()), -magnitude, magnitude)
+    let subnormal = (x.abs() + V::splat(0.5)).to_bits() - V::Int::splat(0.5f32.to_bits() as i32);
+    let least_normal = V::Int::splat(113 << 23); // 2^-14
+    let magnitude = V::Int::select(bits.lt(least_normal), subnormal, normal);
+    V::Int::select(x.lt(V::zero()), -magnitude, magnitude)
 }
 
 /// The value of an ordered half. For |i| <= [`GREATEST`].
 #[inline(always)]
-pub(crate) fn value<L: Lane>(i: L::Int) -> L {
+pub(crate) fn value<V: Simd>(i: V::Int) -> V {
     let magnitude = i.abs();
-    let normal = L::from_bits(magnitude.shl(13) + L::Int::splat(112 << 23));
-    let subnormal = L::from_int(magnitude) * L::splat(1.0 / 16_777_216.0);
-    let least_normal = L::Int::splat(0x400);
-    let v = L::select(magnitude.lt(least_normal), subnormal, normal);
-    let negative = i.lt(L::Int::splat(0));
-    L::select(negative, -v, v)
+    let normal = V::from_bits(magnitude.shl(13) + V::Int::splat(112 << 23));
+    let subnormal = V::from_int(magnitude) * V::splat(1.0 / 16_777_216.0);
+    let least_normal = V::Int::splat(0x400);
+    let v = V::select(magnitude.lt(least_normal), subnormal, normal);
+    let negative = i.lt(V::Int::splat(0));
+    V::select(negative, -v, v)
 }
 
 /// The mantissa of an ordered half, with its hidden bit: below 2^11.
 #[inline(always)]
-pub(crate) fn mantissa<L: Lane>(i: L::Int) -> L::Int {
+pub(crate) fn mantissa<V: Simd>(i: V::Int) -> V::Int {
     let magnitude = i.abs();
-    let hidden = L::Int::splat(0x400);
-    L::Int::select(magnitude.lt(hidden), magnitude, magnitude.low(10) | hidden)
+    let hidden = V::Int::splat(0x400);
+    V::Int::select(magnitude.lt(hidden), magnitude, magnitude.low(10) | hidden)
 }
 
 /// The bits of an ordered half.
 #[inline(always)]
-pub(crate) fn to_bits<L: Lane>(i: L::Int) -> L::Int {
-    i.abs() | (i & L::Int::splat(i32::MIN)).shr(16)
+pub(crate) fn to_bits<V: Simd>(i: V::Int) -> V::Int {
+    i.abs() | (i & V::Int::splat(i32::MIN)).shr(16)
 }
 
 /// The ordered half of any 16 bits, its magnitude cut to `greatest`: infinities and NaN are cut as
 /// well.
 #[inline(always)]
-pub(crate) fn from_bits<L: Lane>(bits: L::Int, greatest: i32) -> L::Int {
-    let magnitude = bits.low(15).min(L::Int::splat(greatest));
+pub(crate) fn from_bits<V: Simd>(bits: V::Int, greatest: i32) -> V::Int {
+    let magnitude = bits.low(15).min(V::Int::splat(greatest));
     let sign = bits.sign_extend(16).sar(31);
     (magnitude ^ sign) - sign
 }

@@ -1,7 +1,7 @@
 //! Which lanes a loop runs on: the widest that the processor has.
 
-use crate::lane::Lane;
-use crate::lane8::F8;
+use crate::simd::Simd;
+use crate::simd::wide::F32x8;
 
 /// A loop over blocks of lanes, of any number.
 pub(crate) trait Job: Sized {
@@ -9,7 +9,7 @@ pub(crate) trait Job: Sized {
     const WIDE: bool = true;
 
     /// Does what fills whole blocks, and gives the rest.
-    fn run<L: Lane>(self) -> Self;
+    fn run<V: Simd>(self) -> Self;
 }
 
 /// Whether this target has vectors that eight lanes can stand on. Without them one lane is quicker
@@ -24,9 +24,9 @@ const EIGHT_LANES: bool = cfg!(any(
 #[inline(always)]
 pub(crate) fn dispatch<J: Job>(job: J) {
     #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
-    let Some(job) = crate::x86::dispatch(job) else { return };
+    let Some(job) = crate::simd::x86::dispatch(job) else { return };
     if EIGHT_LANES && J::WIDE {
-        finish(job.run::<F8>());
+        finish(job.run::<F32x8>());
     } else {
         finish(job);
     }

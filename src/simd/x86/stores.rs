@@ -12,7 +12,7 @@ use core::arch::x86_64 as arch;
 
 use fearless_simd::{Avx2, Avx512};
 
-use crate::streaming::Fence;
+use crate::simd::stream::Fence;
 
 /// A processor, by its token, that streams blocks of `N`.
 pub(crate) trait Streaming<const N: usize> {

@@ -25,8 +25,8 @@
 //! Source: id Software, "Quake II" (anorms.h), 1997, for the set; the numbering is ours.
 
 use crate::formula::{Formula, One};
-use crate::lane::{Each, Lane, LaneInt, inlined};
-use crate::math::{chord_squared, normalize};
+use crate::simd::math::{chord_squared, normalize};
+use crate::simd::{Each, Simd, SimdInt, inlined};
 
 /// The 162 vertices.
 pub(crate) struct Icosphere;
@@ -168,46 +168,46 @@ impl Formula for Icosphere {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         let target = normalize(v.each(|c| c.abs()));
         let negative =
-            v.each(|c| L::Int::select(c.lt(L::zero()), L::Int::splat(1), L::Int::splat(0)));
-        let mut least = L::splat(4.0);
-        let mut code = L::Int::splat(0);
+            v.each(|c| V::Int::select(c.lt(V::zero()), V::Int::splat(1), V::Int::splat(0)));
+        let mut least = V::splat(4.0);
+        let mut code = V::Int::splat(0);
         for (corner, point) in CORNERS.iter().zip(&POINTS) {
             // Half way between points f32 tells distances apart better than cosines.
-            let distance = chord_squared(point.each(|c| L::splat(c)), target);
+            let distance = chord_squared(point.each(|c| V::splat(c)), target);
             let add = inlined(
                 #[inline(always)]
-                |i: usize, signs: L::Int| {
+                |i: usize, signs: V::Int| {
                     if corner.point[i] > 0.0 { signs + signs + negative[i] } else { signs }
                 },
             );
-            let signs = add(0, add(1, add(2, L::Int::splat(0))));
+            let signs = add(0, add(1, add(2, V::Int::splat(0))));
             let closer = distance.lt(least);
-            code = L::Int::select(closer, signs + L::Int::splat(corner.code as i32), code);
-            least = L::select(closer, distance, least);
+            code = V::Int::select(closer, signs + V::Int::splat(corner.code as i32), code);
+            least = V::select(closer, distance, least);
         }
         code
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        let index = Self::canonical::<L>(code);
-        [&TABLE[0], &TABLE[1], &TABLE[2]].each(|bits| L::from_bits(L::gather(bits, index)))
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
+        let index = Self::canonical::<V>(code);
+        [&TABLE[0], &TABLE[1], &TABLE[2]].each(|bits| V::from_bits(V::gather(bits, index)))
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        code.low(8).min(L::Int::splat(VERTICES as i32 - 1))
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        code.low(8).min(V::Int::splat(VERTICES as i32 - 1))
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
-        let mut code = Self::canonical::<L>(code);
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+        let mut code = Self::canonical::<V>(code);
         for (images, flip) in MIRROR_IMAGES.iter().zip(flips) {
             if flip {
-                code = L::gather(images, code);
+                code = V::gather(images, code);
             }
         }
         code

@@ -21,10 +21,10 @@
 
 use core::marker::PhantomData;
 
+use crate::formula::bits::unorm_max;
 use crate::formula::{Closest, Formula, One, around, mirror_decoded, negate_if};
-use crate::lane::{Lane, LaneInt, LaneMask, inlined};
-use crate::layout::unorm_max;
-use crate::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
+use crate::simd::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
+use crate::simd::{Simd, SimdInt, SimdMask, inlined};
 
 /// Lat-long on the parallels `P`.
 pub(crate) struct LatLong<P>(PhantomData<P>);
@@ -40,36 +40,36 @@ pub(crate) trait Parallels: 'static {
     /// The south pole's, if the north pole's is 0.
     const LAST: i32;
     /// The index of a parallel's first point, and how many it has; the poles have one.
-    fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int);
+    fn band<V: Simd>(parallel: V::Int) -> (V::Int, V::Int);
     /// Of an index the parallel, the point on it, and how many that has. What is beyond the last
     /// point is on the last parallel.
-    fn find<L: Lane>(index: L::Int) -> [L::Int; 3];
+    fn find<V: Simd>(index: V::Int) -> [V::Int; 3];
 }
 
 /// Polar angle and azimuth in half turns, the azimuth from 0 to 2.
 #[inline(always)]
-fn angles<L: Lane>([x, y, z]: [L; 3]) -> [L; 2] {
+fn angles<V: Simd>([x, y, z]: [V; 3]) -> [V; 2] {
     let theta = atan2_half_turns(sqrt(x * x + y * y), z);
     let phi = atan2_half_turns(y, x);
-    [theta, L::select(phi.lt(L::zero()), phi + L::splat(2.0), phi)]
+    [theta, V::select(phi.lt(V::zero()), phi + V::splat(2.0), phi)]
 }
 
 /// Point `k` modulo `count`, from -count to count.
 #[inline(always)]
-fn wrap<L: Lane>(k: L::Int, count: L::Int) -> L::Int {
-    let k = L::Int::select(k.lt(L::Int::splat(0)), k + count, k);
-    L::Int::select(k.lt(count), k, L::Int::splat(0))
+fn wrap<V: Simd>(k: V::Int, count: V::Int) -> V::Int {
+    let k = V::Int::select(k.lt(V::Int::splat(0)), k + count, k);
+    V::Int::select(k.lt(count), k, V::Int::splat(0))
 }
 
 impl<P: Parallels> LatLong<P> {
     /// Point `k` of `count` on a parallel.
     #[inline(always)]
-    fn point<L: Lane>(parallel: L::Int, k: L::Int, count: L::Int) -> [L; 3] {
+    fn point<V: Simd>(parallel: V::Int, k: V::Int, count: V::Int) -> [V; 3] {
         // In quarter turns.
-        let theta = L::from_int(parallel) / L::splat(0.5 * P::LAST as f32);
+        let theta = V::from_int(parallel) / V::splat(0.5 * P::LAST as f32);
         // From -2 to 2: beyond half a turn a bit would be lost.
-        let k = L::Int::select(count.lt(k + k), k - count, k);
-        let phi = L::from_int(k.shl(2)) / L::from_int(count);
+        let k = V::Int::select(count.lt(k + k), k - count, k);
+        let phi = V::from_int(k.shl(2)) / V::from_int(count);
         let (sin_theta, cos_theta) = sin_cos_quarter_turns(theta);
         let (sin_phi, cos_phi) = sin_cos_quarter_turns(phi);
         [sin_theta * cos_phi, sin_theta * sin_phi, cos_theta]
@@ -80,25 +80,25 @@ impl<P: Parallels> Formula for LatLong<P> {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         let [theta, phi] = angles(v);
-        let (begin, count) = P::band::<L>((theta * L::splat(P::LAST as f32)).round_int());
-        begin + wrap::<L>((phi * L::splat(0.5) * L::from_int(count)).round_int(), count)
+        let (begin, count) = P::band::<V>((theta * V::splat(P::LAST as f32)).round_int());
+        begin + wrap::<V>((phi * V::splat(0.5) * V::from_int(count)).round_int(), count)
     }
 
     #[inline(never)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        L::compiled_for(
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
+        V::compiled_for(
             #[inline(always)]
             || {
                 let [theta, phi] = angles(v);
-                let (zero, last) = (L::Int::splat(0), L::Int::splat(P::LAST));
+                let (zero, last) = (V::Int::splat(0), V::Int::splat(P::LAST));
                 let mut closest = Closest::to(v);
-                for parallel in around(theta * L::splat(P::LAST as f32)) {
+                for parallel in around(theta * V::splat(P::LAST as f32)) {
                     let parallel = parallel.max(zero).min(last);
-                    let (begin, count) = P::band::<L>(parallel);
-                    for k in around(phi * L::splat(0.5) * L::from_int(count)) {
-                        let k = wrap::<L>(k, count);
+                    let (begin, count) = P::band::<V>(parallel);
+                    for k in around(phi * V::splat(0.5) * V::from_int(count)) {
+                        let k = wrap::<V>(k, count);
                         closest.consider(begin + k, Self::point(parallel, k, count));
                     }
                 }
@@ -108,34 +108,34 @@ impl<P: Parallels> Formula for LatLong<P> {
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        let [parallel, k, count] = P::find::<L>(code);
-        Self::point(parallel, wrap::<L>(k, count), count)
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
+        let [parallel, k, count] = P::find::<V>(code);
+        Self::point(parallel, wrap::<V>(k, count), count)
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        let [parallel, k, count] = P::find::<L>(code);
-        P::band::<L>(parallel).0 + wrap::<L>(k, count)
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        let [parallel, k, count] = P::find::<V>(code);
+        P::band::<V>(parallel).0 + wrap::<V>(k, count)
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
         let [x, y, z] = flips;
-        let [parallel, k, count] = P::find::<L>(code);
-        let k = wrap::<L>(negate_if(wrap::<L>(k, count), y), count);
-        let opposite = wrap::<L>(count.shr(1) - k, count);
-        let parallel = if z { L::Int::splat(P::LAST) - parallel } else { parallel };
-        let (begin, there) = P::band::<L>(parallel);
+        let [parallel, k, count] = P::find::<V>(code);
+        let k = wrap::<V>(negate_if(wrap::<V>(k, count), y), count);
+        let opposite = wrap::<V>(count.shr(1) - k, count);
+        let parallel = if z { V::Int::splat(P::LAST) - parallel } else { parallel };
+        let (begin, there) = P::band::<V>(parallel);
         let mirrored = begin + if x { opposite } else { k };
         // Off the poles, half a turn of an odd number of points ends between two.
-        let one = L::Int::splat(1);
-        let between = one.lt(count) & one.lt(count.low(1) + L::Int::splat(i32::from(x)));
+        let one = V::Int::splat(1);
+        let between = one.lt(count) & one.lt(count.low(1) + V::Int::splat(i32::from(x)));
         let missing = between | !there.eq(count);
         if !missing.any() {
             return mirrored;
         }
-        L::Int::select(missing, mirror_decoded::<Self, L>(code, flips), mirrored)
+        V::Int::select(missing, mirror_decoded::<Self, V>(code, flips), mirrored)
     }
 }
 
@@ -147,23 +147,23 @@ impl<const BITS: u32> Parallels for Even<BITS> {
     const LAST: i32 = Self::N - 1;
 
     #[inline(always)]
-    fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int) {
-        let inner = L::Int::splat(0).lt(parallel) & parallel.lt(L::Int::splat(Self::LAST));
-        let n = L::Int::splat(Self::N);
-        (parallel * n, L::Int::select(inner, n, L::Int::splat(1)))
+    fn band<V: Simd>(parallel: V::Int) -> (V::Int, V::Int) {
+        let inner = V::Int::splat(0).lt(parallel) & parallel.lt(V::Int::splat(Self::LAST));
+        let n = V::Int::splat(Self::N);
+        (parallel * n, V::Int::select(inner, n, V::Int::splat(1)))
     }
 
     #[inline(always)]
-    fn find<L: Lane>(index: L::Int) -> [L::Int; 3] {
+    fn find<V: Simd>(index: V::Int) -> [V::Int; 3] {
         // index = high 2^h + low = high N + (high + low), with N = 2^h - 1.
         let half = BITS / 2;
-        let n = L::Int::splat(Self::N);
+        let n = V::Int::splat(Self::N);
         let (high, low) = (index.low(BITS).shr(half), index.low(half));
         let k = high + low;
         let carry = !k.lt(n);
-        let parallel = L::Int::select(carry, high + L::Int::splat(1), high);
-        let parallel = parallel.min(L::Int::splat(Self::LAST));
-        [parallel, L::Int::select(carry, k - n, k), Self::band::<L>(parallel).1]
+        let parallel = V::Int::select(carry, high + V::Int::splat(1), high);
+        let parallel = parallel.min(V::Int::splat(Self::LAST));
+        [parallel, V::Int::select(carry, k - n, k), Self::band::<V>(parallel).1]
     }
 }
 
@@ -182,40 +182,40 @@ where
     const LAST: i32 = Self::BEGINS.len() as i32 - 4;
 
     #[inline(always)]
-    fn band<L: Lane>(parallel: L::Int) -> (L::Int, L::Int) {
-        let [_, begin, end, _] = L::gather4(Self::BEGINS, parallel);
+    fn band<V: Simd>(parallel: V::Int) -> (V::Int, V::Int) {
+        let [_, begin, end, _] = V::gather4(Self::BEGINS, parallel);
         (begin, end - begin)
     }
 
     #[inline(always)]
-    fn find<L: Lane>(index: L::Int) -> [L::Int; 3] {
+    fn find<V: Simd>(index: V::Int) -> [V::Int; 3] {
         let index = index.low(BITS);
         // The cap above the point, or below if that is smaller, has the area share (1 - cos theta) / 2 =
         // sin^2(theta / 2) = t; theta = 2 asin sqrt t.
         let total = const { Self::BEGINS[Self::BEGINS.len() - 1] };
-        let (middle, last) = (L::Int::splat((total / 2) as i32), L::Int::splat((total - 1) as i32));
+        let (middle, last) = (V::Int::splat((total / 2) as i32), V::Int::splat((total - 1) as i32));
         let south = middle.below(index);
         let beyond = last.below(index);
-        let points = L::Int::select(south, last - index, index);
-        let points = L::from_int(L::Int::select(beyond, L::Int::splat(0), points));
-        let t = (points + L::splat(0.5)) * L::splat((1.0 / total as f64) as f32);
+        let points = V::Int::select(south, last - index, index);
+        let points = V::from_int(V::Int::select(beyond, V::Int::splat(0), points));
+        let t = (points + V::splat(0.5)) * V::splat((1.0 / total as f64) as f32);
         let asin = sqrt(t)
-            * (L::splat(1.000_004_5)
-                + t * (L::splat(0.166_218_98)
-                    + t * (L::splat(0.081_858_44)
-                        + t * (L::splat(0.009_758_449) + t * L::splat(0.094_634_07)))));
-        let pole = L::splat(Self::LAST as f32);
-        let from_pole = asin * L::splat(Self::LAST as f32 * core::f32::consts::FRAC_2_PI);
-        let guess = L::select(south, pole - from_pole, from_pole).round_int();
+            * (V::splat(1.000_004_5)
+                + t * (V::splat(0.166_218_98)
+                    + t * (V::splat(0.081_858_44)
+                        + t * (V::splat(0.009_758_449) + t * V::splat(0.094_634_07)))));
+        let pole = V::splat(Self::LAST as f32);
+        let from_pole = asin * V::splat(Self::LAST as f32 * core::f32::consts::FRAC_2_PI);
+        let guess = V::select(south, pole - from_pole, from_pole).round_int();
         // One off at most.
-        let [before, begin, end, after] = L::gather4(Self::BEGINS, guess);
+        let [before, begin, end, after] = V::gather4(Self::BEGINS, guess);
         let early = index.below(begin);
-        let late = !index.below(end) & guess.lt(L::Int::splat(Self::LAST));
+        let late = !index.below(end) & guess.lt(V::Int::splat(Self::LAST));
         let pick = inlined(
             #[inline(always)]
-            |at, before, after| L::Int::select(early, before, L::Int::select(late, after, at)),
+            |at, before, after| V::Int::select(early, before, V::Int::select(late, after, at)),
         );
-        let one = L::Int::splat(1);
+        let one = V::Int::splat(1);
         let parallel = pick(guess, guess - one, guess + one);
         let (begin, end) = (pick(begin, before, end), pick(end, begin, after));
         let count = end - begin;

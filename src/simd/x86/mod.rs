@@ -1,47 +1,50 @@
 //! The vectors of this very processor, found when the program runs.
 //!
 //! `forbid(unsafe_code)` stops here, for one reason: a lane's operations take no token that its
-//! instructions exist, so [`Tier::token`] makes one of nothing.
+//! instructions exist, so [`CpuLevel::token`] makes one of nothing.
 
 #![allow(unsafe_code)]
 
+pub(crate) mod lanes;
+pub(crate) mod stores;
+
 use fearless_simd::{Avx2, Avx512, Level, Simd};
 
-use crate::dispatch::{Job, finish};
-use crate::lane_x86::{F8, F16};
+use crate::simd::dispatch::{Job, finish};
+use crate::simd::x86::lanes::{F32x8, F32x16};
 
 /// Instructions that the processor has.
 ///
 /// # Safety
 /// A type that implements it is named only where the processor was asked, which is here, so that
 /// whoever calls these functions does so on such a processor.
-pub(crate) unsafe trait Tier: Copy + 'static {
+pub(crate) unsafe trait CpuLevel: Copy + 'static {
     type Simd: Simd;
     fn token() -> Self::Simd;
 }
 
 #[derive(Clone, Copy)]
-struct HasAvx2;
+struct Avx2Level;
 
 // SAFETY: `dispatch` alone names it.
-unsafe impl Tier for HasAvx2 {
+unsafe impl CpuLevel for Avx2Level {
     type Simd = Avx2;
     #[inline(always)]
     fn token() -> Avx2 {
-        // SAFETY: see `Tier`.
+        // SAFETY: see `CpuLevel`.
         unsafe { Avx2::assume_supported() }
     }
 }
 
 #[derive(Clone, Copy)]
-struct HasAvx512;
+struct Avx512Level;
 
 // SAFETY: `dispatch` alone names it.
-unsafe impl Tier for HasAvx512 {
+unsafe impl CpuLevel for Avx512Level {
     type Simd = Avx512;
     #[inline(always)]
     fn token() -> Avx512 {
-        // SAFETY: see `Tier`.
+        // SAFETY: see `CpuLevel`.
         unsafe { Avx512::assume_supported() }
     }
 }
@@ -58,14 +61,14 @@ pub(crate) fn dispatch<J: Job>(job: J) -> Option<J> {
     {
         avx512.vectorize(
             #[inline(always)]
-            || finish(job.run::<F16<HasAvx512>>()),
+            || finish(job.run::<F32x16<Avx512Level>>()),
         );
     } else if cfg!(not(disable_dispatch_avx2))
         && let Some(avx2) = level.as_avx2()
     {
         avx2.vectorize(
             #[inline(always)]
-            || finish(job.run::<F8<HasAvx2>>()),
+            || finish(job.run::<F32x8<Avx2Level>>()),
         );
     } else {
         return Some(job);

@@ -2,12 +2,19 @@
 //!
 //! Every required method is exact in IEEE arithmetic (or on integers), so one lane and many
 //! give the same bits on every target. What is approximate is written once, on top, here and in
-//! [`math`](crate::math).
+//! [`math`](crate::simd::math).
+
+pub(crate) mod dispatch;
+pub(crate) mod math;
+pub(crate) mod stream;
+pub(crate) mod wide;
+#[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
+pub(crate) mod x86;
 
 use core::num::Wrapping;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use crate::streaming::Fence;
+use crate::simd::stream::Fence;
 
 /// 1.5 * 2^23: adding it rounds to an integer, ties to even, which then stands in the low mantissa bits.
 const ROUNDER: f32 = 12_582_912.0;
@@ -16,7 +23,7 @@ const ROUNDER: f32 = 12_582_912.0;
 pub(crate) const MOST_COMPONENTS: usize = 8;
 
 /// A vector of `f32`, of as many lanes as the implementation has.
-pub(crate) trait Lane:
+pub(crate) trait Simd:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -25,12 +32,12 @@ pub(crate) trait Lane:
     + Neg<Output = Self>
 {
     /// Wrapping 32-bit integers, one per lane.
-    type Int: LaneInt<Mask = Self::Mask>;
+    type Int: SimdInt<Mask = Self::Mask>;
     /// A truth value per lane.
-    type Mask: LaneMask;
+    type Mask: SimdMask;
     /// As many elements of a slice as there are lanes.
     type Block<T: Copy + 'static>: Copy + 'static;
-    /// Whether [`stream`](Lane::stream) does more than [`store`](Lane::store).
+    /// Whether [`stream`](Simd::stream) does more than [`store`](Simd::store).
     const STREAMS: bool = false;
 
     /// The whole blocks of a slice, and the rest.
@@ -143,7 +150,7 @@ pub(crate) trait Lane:
         (self + Self::splat(ROUNDER)).to_bits() - Self::Int::splat(ROUNDER.to_bits() as i32)
     }
 
-    /// [`round_int`](Lane::round_int) for |x| <= 2^24.
+    /// [`round_int`](Simd::round_int) for |x| <= 2^24.
     #[inline(always)]
     fn round_int_wide(self) -> Self::Int {
         // From 2^23 to 2^24 the bits count whole numbers; smaller ones are moved there.
@@ -170,7 +177,7 @@ pub(crate) trait Lane:
 }
 
 /// A vector of wrapping 32-bit integers.
-pub(crate) trait LaneInt:
+pub(crate) trait SimdInt:
     Copy
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -180,7 +187,7 @@ pub(crate) trait LaneInt:
     + BitXor<Output = Self>
     + Neg<Output = Self>
 {
-    type Mask: LaneMask;
+    type Mask: SimdMask;
 
     fn splat(i: i32) -> Self;
     fn shl(self, bits: u32) -> Self;
@@ -228,7 +235,7 @@ pub(crate) trait LaneInt:
 }
 
 /// A truth value per lane.
-pub(crate) trait LaneMask:
+pub(crate) trait SimdMask:
     Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
     /// Whether it holds in any lane.
@@ -276,7 +283,7 @@ impl<T> Each<T> for [T; 4] {
     }
 }
 
-impl Lane for f32 {
+impl Simd for f32 {
     type Int = Wrapping<i32>;
     type Mask = bool;
     type Block<T: Copy + 'static> = [T; 1];
@@ -347,7 +354,7 @@ impl Lane for f32 {
     }
 }
 
-impl LaneInt for Wrapping<i32> {
+impl SimdInt for Wrapping<i32> {
     type Mask = bool;
 
     #[inline(always)]
@@ -380,7 +387,7 @@ impl LaneInt for Wrapping<i32> {
     }
 }
 
-impl LaneMask for bool {
+impl SimdMask for bool {
     #[inline(always)]
     fn any(self) -> bool {
         self

@@ -1,14 +1,16 @@
 //! The loops: as many lanes as there are, then one, with the same formula.
 
+pub(crate) mod code_int;
+
 use core::marker::PhantomData;
 
 use bytemuck::Pod;
 
-use crate::dispatch::{Job, dispatch, finish};
 use crate::error::LengthMismatch;
 use crate::formula::{Formula, Packed, Stored};
-use crate::lane::{Lane, MOST_COMPONENTS};
-use crate::streaming::{self, Fence};
+use crate::simd::dispatch::{Job, dispatch, finish};
+use crate::simd::stream::{self, Fence};
+use crate::simd::{MOST_COMPONENTS, Simd};
 use crate::{Codec, Visitor};
 
 /// Vectors to read, as a structure of arrays. All three slices have one element per vector.
@@ -42,7 +44,7 @@ pub(crate) trait Encoder {
     /// Whether it gives the nearest code.
     const PRECISE: bool;
 
-    fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L>;
+    fn encode<F: Formula, V: Simd>(v: [V; 3]) -> Packed<F, V>;
 }
 
 pub(crate) struct Fast;
@@ -52,7 +54,7 @@ impl Encoder for Fast {
     const PRECISE: bool = false;
 
     #[inline(always)]
-    fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L> {
+    fn encode<F: Formula, V: Simd>(v: [V; 3]) -> Packed<F, V> {
         F::encode(v)
     }
 }
@@ -61,14 +63,14 @@ impl Encoder for Precise {
     const PRECISE: bool = true;
 
     #[inline(always)]
-    fn encode<F: Formula, L: Lane>(v: [L; 3]) -> Packed<F, L> {
+    fn encode<F: Formula, V: Simd>(v: [V; 3]) -> Packed<F, V> {
         F::encode_precise(v)
     }
 }
 
 /// What the loop over codes does with a block of them.
 pub(crate) trait Decoder<C: Copy + 'static> {
-    fn decode<L: Lane>(&self, codes: &L::Block<C>) -> [L; 3];
+    fn decode<V: Simd>(&self, codes: &V::Block<C>) -> [V; 3];
 }
 
 /// A formula's decoder.
@@ -76,20 +78,20 @@ struct Direct<F>(PhantomData<F>);
 
 impl<F: Formula, C: Stored<F::Words>> Decoder<C> for Direct<F> {
     #[inline(always)]
-    fn decode<L: Lane>(&self, codes: &L::Block<C>) -> [L; 3] {
-        F::decode::<L>(C::load::<L>(codes))
+    fn decode<V: Simd>(&self, codes: &V::Block<C>) -> [V; 3] {
+        F::decode::<V>(C::load::<V>(codes))
     }
 }
 
 #[inline(always)]
-fn encode_block<E: Encoder, F: Formula, C: Stored<F::Words>, L: Lane>(
-    x: &L::Block<f32>,
-    y: &L::Block<f32>,
-    z: &L::Block<f32>,
-    codes: &mut L::Block<C>,
+fn encode_block<E: Encoder, F: Formula, C: Stored<F::Words>, V: Simd>(
+    x: &V::Block<f32>,
+    y: &V::Block<f32>,
+    z: &V::Block<f32>,
+    codes: &mut V::Block<C>,
 ) {
-    let v = F::prepare([L::load(x), L::load(y), L::load(z)]);
-    C::store::<L>(E::encode::<F, L>(v), codes);
+    let v = F::prepare([V::load(x), V::load(y), V::load(z)]);
+    C::store::<V>(E::encode::<F, V>(v), codes);
 }
 
 #[inline(always)]
@@ -116,15 +118,15 @@ pub(crate) fn decode_one<F: Formula, C: Stored<F::Words>>(code: C) -> [f32; 3] {
 
 /// What is made of codes without vectors.
 trait Operation {
-    fn apply<F: Formula, L: Lane>(&self, code: Packed<F, L>) -> Packed<F, L>;
+    fn apply<F: Formula, V: Simd>(&self, code: Packed<F, V>) -> Packed<F, V>;
 }
 
 struct Canonical;
 
 impl Operation for Canonical {
     #[inline(always)]
-    fn apply<F: Formula, L: Lane>(&self, code: Packed<F, L>) -> Packed<F, L> {
-        F::canonical::<L>(code)
+    fn apply<F: Formula, V: Simd>(&self, code: Packed<F, V>) -> Packed<F, V> {
+        F::canonical::<V>(code)
     }
 }
 
@@ -133,17 +135,17 @@ struct Mirror([bool; 3]);
 
 impl Operation for Mirror {
     #[inline(always)]
-    fn apply<F: Formula, L: Lane>(&self, code: Packed<F, L>) -> Packed<F, L> {
-        F::mirror::<L>(code, self.0)
+    fn apply<F: Formula, V: Simd>(&self, code: Packed<F, V>) -> Packed<F, V> {
+        F::mirror::<V>(code, self.0)
     }
 }
 
 #[inline(always)]
-fn apply_to_block<O: Operation, F: Formula, C: Stored<F::Words>, L: Lane>(
+fn apply_to_block<O: Operation, F: Formula, C: Stored<F::Words>, V: Simd>(
     operation: &O,
-    codes: &mut L::Block<C>,
+    codes: &mut V::Block<C>,
 ) {
-    C::store::<L>(operation.apply::<F, L>(C::load::<L>(codes)), codes);
+    C::store::<V>(operation.apply::<F, V>(C::load::<V>(codes)), codes);
 }
 
 #[inline(always)]
@@ -162,11 +164,11 @@ fn apply_to_all<O: Operation, F: Formula, C: Stored<F::Words>>(operation: &O, co
     }
     impl<O: Operation, F: Formula, C: Stored<F::Words>> Job for ApplyToAll<'_, O, F, C> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let ApplyToAll { operation, codes, formula } = self;
-            let (blocks, codes) = L::split_mut(codes);
+            let (blocks, codes) = V::split_mut(codes);
             for block in blocks {
-                apply_to_block::<O, F, C, L>(operation, block);
+                apply_to_block::<O, F, C, V>(operation, block);
             }
             ApplyToAll { operation, codes, formula }
         }
@@ -222,12 +224,12 @@ fn encode_all<E: Encoder, F: Formula, C: Stored<F::Words>>(
     }
     impl<E: Encoder, F: Formula, C: Stored<F::Words>> Job for EncodeAll<'_, E, F, C> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let EncodeAll { v: Soa { x, y, z }, codes, how } = self;
-            let ((xs, x), (ys, y), (zs, z)) = (L::split(x), L::split(y), L::split(z));
-            let (blocks, codes) = L::split_mut(codes);
+            let ((xs, x), (ys, y), (zs, z)) = (V::split(x), V::split(y), V::split(z));
+            let (blocks, codes) = V::split_mut(codes);
             for (((x, y), z), codes) in xs.iter().zip(ys).zip(zs).zip(blocks) {
-                encode_block::<E, F, C, L>(x, y, z, codes);
+                encode_block::<E, F, C, V>(x, y, z, codes);
             }
             EncodeAll { v: Soa { x, y, z }, codes, how }
         }
@@ -260,7 +262,7 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
         /// Decodes lane by lane until `x` is aligned, and so, if they begin alike, `y` and `z`.
         fn align(self) -> Self {
             let DecodeAll { decoder, codes, v: SoaMut { x, y, z } } = self;
-            let n = x.as_ptr().align_offset(streaming::ALIGNMENT).min(codes.len());
+            let n = x.as_ptr().align_offset(stream::ALIGNMENT).min(codes.len());
             let (first_codes, codes) = codes.split_at(n);
             let ((first_x, x), (first_y, y), (first_z, z)) =
                 (x.split_at_mut(n), y.split_at_mut(n), z.split_at_mut(n));
@@ -274,13 +276,13 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
     }
     impl<D: Decoder<C>, C: Copy + 'static> Job for DecodeAll<'_, D, C> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let DecodeAll { decoder, codes, v: SoaMut { x, y, z } } = self;
-            let fence = Fence::new(L::STREAMS && streaming::is_large(3 * size_of_val(x)));
-            let ((xs, x), (ys, y), (zs, z)) = (L::split_mut(x), L::split_mut(y), L::split_mut(z));
-            let (blocks, codes) = L::split(codes);
+            let fence = Fence::new(V::STREAMS && stream::is_large(3 * size_of_val(x)));
+            let ((xs, x), (ys, y), (zs, z)) = (V::split_mut(x), V::split_mut(y), V::split_mut(z));
+            let (blocks, codes) = V::split(codes);
             for (((codes, x), y), z) in blocks.iter().zip(xs).zip(ys).zip(zs) {
-                let v = decoder.decode::<L>(codes);
+                let v = decoder.decode::<V>(codes);
                 if fence.streams() {
                     v[0].stream(x, &fence);
                     v[1].stream(y, &fence);
@@ -296,7 +298,7 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
     }
     LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
     let mut job = DecodeAll { decoder, codes, v };
-    if streaming::is_large(3 * size_of_val(job.v.x)) {
+    if stream::is_large(3 * size_of_val(job.v.x)) {
         job = job.align();
     }
     dispatch(job);
@@ -305,7 +307,7 @@ pub(crate) fn decode_all<D: Decoder<C>, C: Copy + 'static>(
 
 /// What a loop from one slice to another does to each block.
 pub(crate) trait Kernel<A: Copy + 'static, B: Copy + 'static> {
-    fn run<L: Lane>(from: &L::Block<A>, to: &mut L::Block<B>);
+    fn run<V: Simd>(from: &V::Block<A>, to: &mut V::Block<B>);
 }
 
 /// Runs `K` over two slices, which are equally long.
@@ -318,11 +320,11 @@ pub(crate) fn run<K: Kernel<A, B>, A: Copy + 'static, B: Copy + 'static>(from: &
     }
     impl<K: Kernel<A, B>, A: Copy + 'static, B: Copy + 'static> Job for All<'_, K, A, B> {
         #[inline(always)]
-        fn run<L: Lane>(self) -> Self {
+        fn run<V: Simd>(self) -> Self {
             let All { from, to, kernel } = self;
-            let ((froms, from), (tos, to)) = (L::split(from), L::split_mut(to));
+            let ((froms, from), (tos, to)) = (V::split(from), V::split_mut(to));
             for (from, to) in froms.iter().zip(tos) {
-                K::run::<L>(from, to);
+                K::run::<V>(from, to);
             }
             All { from, to, kernel }
         }
@@ -392,12 +394,12 @@ impl<const N: usize> Job for Gather<'_, N> {
     const WIDE: bool = false;
 
     #[inline(always)]
-    fn run<L: Lane>(self) -> Self {
+    fn run<V: Simd>(self) -> Self {
         let Gather { vectors, v: SoaMut { x, y, z } } = self;
-        let ((xs, x), (ys, y), (zs, z)) = (L::split_mut(x), L::split_mut(y), L::split_mut(z));
-        let (blocks, vectors) = L::split(vectors);
+        let ((xs, x), (ys, y), (zs, z)) = (V::split_mut(x), V::split_mut(y), V::split_mut(z));
+        let (blocks, vectors) = V::split(vectors);
         for (((vectors, x), y), z) in blocks.iter().zip(xs).zip(ys).zip(zs) {
-            let v = L::load_vectors(vectors);
+            let v = V::load_vectors(vectors);
             v[0].store(x);
             v[1].store(y);
             v[2].store(z);
@@ -417,12 +419,12 @@ impl<const N: usize> Job for Scatter<'_, N> {
     const WIDE: bool = false;
 
     #[inline(always)]
-    fn run<L: Lane>(self) -> Self {
+    fn run<V: Simd>(self) -> Self {
         let Scatter { v: Soa { x, y, z }, vectors } = self;
-        let ((xs, x), (ys, y), (zs, z)) = (L::split(x), L::split(y), L::split(z));
-        let (blocks, vectors) = L::split_mut(vectors);
+        let ((xs, x), (ys, y), (zs, z)) = (V::split(x), V::split(y), V::split(z));
+        let (blocks, vectors) = V::split_mut(vectors);
         for (((x, y), z), vectors) in xs.iter().zip(ys).zip(zs).zip(blocks) {
-            L::store_vectors([L::load(x), L::load(y), L::load(z)], vectors);
+            V::store_vectors([V::load(x), V::load(y), V::load(z)], vectors);
         }
         Scatter { v: Soa { x, y, z }, vectors }
     }

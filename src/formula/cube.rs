@@ -18,10 +18,10 @@
 
 use core::marker::PhantomData;
 
+use crate::formula::bits::snorm_max;
 use crate::formula::{Formula, One, Symmetric, closest_of_four, mirror_point};
-use crate::lane::{Each, Lane, LaneInt, inlined};
-use crate::layout::snorm_max;
-use crate::math::{atan2_half_turns, normalize, sin_cos_of_half};
+use crate::simd::math::{atan2_half_turns, normalize, sin_cos_of_half};
+use crate::simd::{Each, Simd, SimdInt, inlined};
 
 /// A cube map with spacing `W` in `BITS` bits.
 pub(crate) struct Cube<W, const BITS: u32>(PhantomData<W>);
@@ -32,9 +32,9 @@ pub(crate) struct AngularCube<const BITS: u32>;
 /// How a face is divided.
 pub(crate) trait Spacing: 'static {
     /// The parameter of `side / axis`, from -1 to 1, with axis > 0.
-    fn param<L: Lane>(side: L, axis: L) -> L;
+    fn param<V: Simd>(side: V, axis: V) -> V;
     /// The direction of the parameters of three components, one of them 1 or -1.
-    fn direction<L: Lane>(params: [L; 3]) -> [L; 3];
+    fn direction<V: Simd>(params: [V; 3]) -> [V; 3];
 }
 
 /// Even steps on the face.
@@ -44,28 +44,28 @@ pub(crate) struct Warped;
 
 impl Spacing for Flat {
     #[inline(always)]
-    fn param<L: Lane>(side: L, axis: L) -> L {
+    fn param<V: Simd>(side: V, axis: V) -> V {
         side / axis
     }
     #[inline(always)]
-    fn direction<L: Lane>(params: [L; 3]) -> [L; 3] {
+    fn direction<V: Simd>(params: [V; 3]) -> [V; 3] {
         params
     }
 }
 
 impl Spacing for Warped {
     #[inline(always)]
-    fn param<L: Lane>(side: L, axis: L) -> L {
-        atan2_half_turns(side, axis) * L::splat(4.0)
+    fn param<V: Simd>(side: V, axis: V) -> V {
+        atan2_half_turns(side, axis) * V::splat(4.0)
     }
     #[inline(always)]
-    fn direction<L: Lane>(params: [L; 3]) -> [L; 3] {
+    fn direction<V: Simd>(params: [V; 3]) -> [V; 3] {
         params.each(
             #[inline(always)]
             |p| {
-                let (sin, cos) = sin_cos_of_half(p * L::splat(0.5));
-                let end = L::splat(1.0).le(p.abs());
-                L::select(end, p, sin / cos)
+                let (sin, cos) = sin_cos_of_half(p * V::splat(0.5));
+                let end = V::splat(1.0).le(p.abs());
+                V::select(end, p, sin / cos)
             },
         )
     }
@@ -84,16 +84,16 @@ fn turn_to_axis<T: Copy>([x, y, z]: [T; 3], axis: u32) -> [T; 3] {
 /// A vector turned so that its largest component, X before Y before Z, comes first; and which one
 /// that is.
 #[inline(always)]
-fn largest_first<L: Lane>(v: [L; 3]) -> ([L; 3], L::Int) {
+fn largest_first<V: Simd>(v: [V; 3]) -> ([V; 3], V::Int) {
     let [x, y, z] = v.each(|c| c.abs());
     let is_x = y.le(x) & z.le(x);
     let is_y = !is_x & z.le(y);
     let [a, b, c] = [0, 1, 2].each(|axis| turn_to_axis(v, axis));
-    let turned = [0, 1, 2].each(|i: usize| L::select(is_x, a[i], L::select(is_y, b[i], c[i])));
-    let axis = L::Int::select(
+    let turned = [0, 1, 2].each(|i: usize| V::select(is_x, a[i], V::select(is_y, b[i], c[i])));
+    let axis = V::Int::select(
         is_x,
-        L::Int::splat(0),
-        L::Int::select(is_y, L::Int::splat(1), L::Int::splat(2)),
+        V::Int::splat(0),
+        V::Int::select(is_y, V::Int::splat(1), V::Int::splat(2)),
     );
     (turned, axis)
 }
@@ -107,10 +107,10 @@ fn turn_back<T: Copy>(v: [T; 3], select: impl Fn(T, T, T) -> T) -> [T; 3] {
 
 /// Picks by the axis.
 #[inline(always)]
-fn by_axis<L: Lane>(axis: L::Int) -> impl Fn(L::Int, L::Int, L::Int) -> L::Int {
-    let is_x = axis.eq(L::Int::splat(0));
-    let is_y = axis.eq(L::Int::splat(1));
-    move |x, y, z| L::Int::select(is_x, x, L::Int::select(is_y, y, z))
+fn by_axis<V: Simd>(axis: V::Int) -> impl Fn(V::Int, V::Int, V::Int) -> V::Int {
+    let is_x = axis.eq(V::Int::splat(0));
+    let is_y = axis.eq(V::Int::splat(1));
+    move |x, y, z| V::Int::select(is_x, x, V::Int::select(is_y, y, z))
 }
 
 impl<W: Spacing, const BITS: u32> Cube<W, BITS> {
@@ -119,15 +119,15 @@ impl<W: Spacing, const BITS: u32> Cube<W, BITS> {
 
     /// The canonical code of a point of the cube from -M to M.
     #[inline(always)]
-    fn pack<L: Lane>(point: [L::Int; 3]) -> L::Int {
-        let max = L::Int::splat(Self::M);
+    fn pack<V: Simd>(point: [V::Int; 3]) -> V::Int {
+        let max = V::Int::splat(Self::M);
         let [x, y, _] = point.each(|c| c.abs().eq(max));
-        let axis = L::Int::select(
+        let axis = V::Int::select(
             x,
-            L::Int::splat(0),
-            L::Int::select(y, L::Int::splat(1), L::Int::splat(2)),
+            V::Int::splat(0),
+            V::Int::select(y, V::Int::splat(1), V::Int::splat(2)),
         );
-        let pick = by_axis::<L>(axis);
+        let pick = by_axis::<V>(axis);
         let turned = [0, 1, 2].each(|axis| turn_to_axis(point, axis));
         let [main, a, b] =
             [0, 1, 2].each(|i: usize| pick(turned[0][i], turned[1][i], turned[2][i]));
@@ -139,31 +139,31 @@ impl<W: Spacing, const BITS: u32> Cube<W, BITS> {
 
     /// The largest component, which is M or -M, and the two others; and its axis.
     #[inline(always)]
-    fn unpack<L: Lane>(code: L::Int) -> ([L::Int; 3], L::Int) {
-        let max = L::Int::splat(Self::M);
-        let negative = code.low(1).eq(L::Int::splat(1));
-        let axis = code.shr(1).low(2).min(L::Int::splat(2));
+    fn unpack<V: Simd>(code: V::Int) -> ([V::Int; 3], V::Int) {
+        let max = V::Int::splat(Self::M);
+        let negative = code.low(1).eq(V::Int::splat(1));
+        let axis = code.shr(1).low(2).min(V::Int::splat(2));
         let side = inlined(
             #[inline(always)]
             |shift: u32| code.shr(shift).sign_extend(Self::SIDE).max(-max),
         );
-        ([L::Int::select(negative, -max, max), side(3), side(3 + Self::SIDE)], axis)
+        ([V::Int::select(negative, -max, max), side(3), side(3 + Self::SIDE)], axis)
     }
 
     #[inline(always)]
-    fn vector<L: Lane>(point: [L::Int; 3]) -> [L; 3] {
-        let params = point.each(|i| L::from_int(i) * L::splat(1.0 / Self::M as f32));
+    fn vector<V: Simd>(point: [V::Int; 3]) -> [V; 3] {
+        let params = point.each(|i| V::from_int(i) * V::splat(1.0 / Self::M as f32));
         normalize(W::direction(params))
     }
 
     /// The parameters of the two smaller components, scaled to M; the axis of the largest, and its
     /// place, M or -M.
     #[inline(always)]
-    fn params<L: Lane>(v: [L; 3]) -> ([L; 2], L::Int, L::Int) {
+    fn params<V: Simd>(v: [V; 3]) -> ([V; 2], V::Int, V::Int) {
         let ([main, a, b], axis) = largest_first(v);
-        let max = L::Int::splat(Self::M);
-        let end = L::Int::select(main.lt(L::zero()), -max, max);
-        let scale = L::splat(Self::M as f32);
+        let max = V::Int::splat(Self::M);
+        let end = V::Int::select(main.lt(V::zero()), -max, max);
+        let scale = V::splat(Self::M as f32);
         (
             [a, b].each(
                 #[inline(always)]
@@ -176,10 +176,10 @@ impl<W: Spacing, const BITS: u32> Cube<W, BITS> {
 
     /// A point of the cube from -M to M.
     #[inline(always)]
-    fn point<L: Lane>(axis: L::Int, end: L::Int, sides: [L::Int; 2]) -> [L::Int; 3] {
-        let max = L::Int::splat(Self::M);
+    fn point<V: Simd>(axis: V::Int, end: V::Int, sides: [V::Int; 2]) -> [V::Int; 3] {
+        let max = V::Int::splat(Self::M);
         let [a, b] = sides.each(|p| p.max(-max).min(max));
-        turn_back([end, a, b], by_axis::<L>(axis))
+        turn_back([end, a, b], by_axis::<V>(axis))
     }
 }
 
@@ -187,14 +187,14 @@ impl<W: Spacing, const BITS: u32> Formula for Cube<W, BITS> {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         let (params, axis, end) = Self::params(v);
-        Self::pack::<L>(Self::point::<L>(axis, end, params.each(|p| p.round_int())))
+        Self::pack::<V>(Self::point::<V>(axis, end, params.each(|p| p.round_int())))
     }
 
     #[inline(never)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        L::compiled_for(
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
+        V::compiled_for(
             #[inline(always)]
             || {
                 let (params, axis, end) = Self::params(v);
@@ -203,8 +203,8 @@ impl<W: Spacing, const BITS: u32> Formula for Cube<W, BITS> {
                     params,
                     #[inline(always)]
                     |sides| {
-                        let point = Self::point::<L>(axis, end, sides);
-                        (Self::pack::<L>(point), Self::vector::<L>(point))
+                        let point = Self::point::<V>(axis, end, sides);
+                        (Self::pack::<V>(point), Self::vector::<V>(point))
                     },
                 )
             },
@@ -212,21 +212,21 @@ impl<W: Spacing, const BITS: u32> Formula for Cube<W, BITS> {
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        let (point, axis) = Self::unpack::<L>(code);
-        Self::vector::<L>(turn_back(point, by_axis::<L>(axis)))
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
+        let (point, axis) = Self::unpack::<V>(code);
+        Self::vector::<V>(turn_back(point, by_axis::<V>(axis)))
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        let (point, axis) = Self::unpack::<L>(code);
-        Self::pack::<L>(turn_back(point, by_axis::<L>(axis)))
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        let (point, axis) = Self::unpack::<V>(code);
+        Self::pack::<V>(turn_back(point, by_axis::<V>(axis)))
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
-        let (point, axis) = Self::unpack::<L>(code);
-        Self::pack::<L>(mirror_point(turn_back(point, by_axis::<L>(axis)), flips))
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+        let (point, axis) = Self::unpack::<V>(code);
+        Self::pack::<V>(mirror_point(turn_back(point, by_axis::<V>(axis)), flips))
     }
 }
 
@@ -234,12 +234,12 @@ impl<W: Spacing, const BITS: u32> Symmetric for Cube<W, BITS> {
     const ENTRIES: usize = 3 << (2 * (Self::SIDE - 1));
 
     #[inline(always)]
-    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
-        let (point, axis) = Self::unpack::<L>(code);
+    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
+        let (point, axis) = Self::unpack::<V>(code);
         let [_, a, b] = point.each(|i| i.abs());
         let index = a | b.shl(Self::SIDE - 1) | axis.shl(2 * (Self::SIDE - 1));
-        let point = turn_back(point, by_axis::<L>(axis));
-        (index, point.each(|i| i.lt(L::Int::splat(0))))
+        let point = turn_back(point, by_axis::<V>(axis));
+        (index, point.each(|i| i.lt(V::Int::splat(0))))
     }
 }
 
@@ -256,63 +256,63 @@ struct Cells {
 
 impl Cells {
     #[inline(always)]
-    fn pack<L: Lane>(self, [i, j]: [L::Int; 2], face: L::Int) -> L::Int {
-        (i * L::Int::splat(self.side) + j) * L::Int::splat(6) + face
+    fn pack<V: Simd>(self, [i, j]: [V::Int; 2], face: V::Int) -> V::Int {
+        (i * V::Int::splat(self.side) + j) * V::Int::splat(6) + face
     }
 
     #[inline(always)]
-    fn vector<L: Lane>(self, cell: [L::Int; 2], face: L::Int) -> [L; 3] {
-        let s = L::Int::splat(self.side);
-        let scale = L::splat(0.5 / self.side as f32);
+    fn vector<V: Simd>(self, cell: [V::Int; 2], face: V::Int) -> [V; 3] {
+        let s = V::Int::splat(self.side);
+        let scale = V::splat(0.5 / self.side as f32);
         let [a, b] = cell.each(
             #[inline(always)]
             |i| {
                 // Half of (2 i + 1) / s - 1, in quarter turns.
-                let odd = i + i + L::Int::splat(1) - s;
-                let (sin, cos) = sin_cos_of_half(L::from_int(odd) * scale);
+                let odd = i + i + V::Int::splat(1) - s;
+                let (sin, cos) = sin_cos_of_half(V::from_int(odd) * scale);
                 sin / cos
             },
         );
-        let negative = face.low(1).eq(L::Int::splat(1));
-        let main = L::select(negative, L::splat(-1.0), L::splat(1.0));
+        let negative = face.low(1).eq(V::Int::splat(1));
+        let main = V::select(negative, V::splat(-1.0), V::splat(1.0));
         let axis = face.shr(1);
-        let (is_x, is_y) = (axis.eq(L::Int::splat(0)), axis.eq(L::Int::splat(1)));
-        let v = turn_back([main, a, b], |x, y, z| L::select(is_x, x, L::select(is_y, y, z)));
+        let (is_x, is_y) = (axis.eq(V::Int::splat(0)), axis.eq(V::Int::splat(1)));
+        let v = turn_back([main, a, b], |x, y, z| V::select(is_x, x, V::select(is_y, y, z)));
         normalize(v)
     }
 
     /// The cell's coordinates, of which the integers are the centres; and the face.
     #[inline(always)]
-    fn params<L: Lane>(self, v: [L; 3]) -> ([L; 2], L::Int) {
+    fn params<V: Simd>(self, v: [V; 3]) -> ([V; 2], V::Int) {
         let ([main, a, b], axis) = largest_first(v);
-        let half = L::splat(0.5 * self.side as f32);
+        let half = V::splat(0.5 * self.side as f32);
         let params = [a, b].each(
             #[inline(always)]
-            |side| Warped::param(side, main.abs()) * half + (half - L::splat(0.5)),
+            |side| Warped::param(side, main.abs()) * half + (half - V::splat(0.5)),
         );
-        let sign = L::Int::select(main.lt(L::zero()), L::Int::splat(1), L::Int::splat(0));
+        let sign = V::Int::select(main.lt(V::zero()), V::Int::splat(1), V::Int::splat(0));
         (params, axis + axis + sign)
     }
 
     #[inline(always)]
-    fn clamp<L: Lane>(self, cell: [L::Int; 2]) -> [L::Int; 2] {
-        cell.each(|i| i.max(L::Int::splat(0)).min(L::Int::splat(self.side - 1)))
+    fn clamp<V: Simd>(self, cell: [V::Int; 2]) -> [V::Int; 2] {
+        cell.each(|i| i.max(V::Int::splat(0)).min(V::Int::splat(self.side - 1)))
     }
 
     #[inline(never)]
-    fn encode<L: Lane>(self, v: [L; 3]) -> L::Int {
-        L::compiled_for(
+    fn encode<V: Simd>(self, v: [V; 3]) -> V::Int {
+        V::compiled_for(
             #[inline(always)]
             || {
                 let (params, face) = self.params(v);
-                self.pack::<L>(self.clamp::<L>(params.each(|p| p.round_int())), face)
+                self.pack::<V>(self.clamp::<V>(params.each(|p| p.round_int())), face)
             },
         )
     }
 
     #[inline(never)]
-    fn encode_precise<L: Lane>(self, v: [L; 3]) -> L::Int {
-        L::compiled_for(
+    fn encode_precise<V: Simd>(self, v: [V; 3]) -> V::Int {
+        V::compiled_for(
             #[inline(always)]
             || {
                 let (params, face) = self.params(v);
@@ -321,8 +321,8 @@ impl Cells {
                     params,
                     #[inline(always)]
                     |cell| {
-                        let cell = self.clamp::<L>(cell);
-                        (self.pack::<L>(cell, face), self.vector::<L>(cell, face))
+                        let cell = self.clamp::<V>(cell);
+                        (self.pack::<V>(cell, face), self.vector::<V>(cell, face))
                     },
                 )
             },
@@ -331,44 +331,44 @@ impl Cells {
 
     /// The cell of a code, and its face.
     #[inline(always)]
-    fn unpack<L: Lane>(self, code: L::Int) -> ([L::Int; 2], L::Int) {
-        let (cell, face) = div_rem::<L, 6>(code);
+    fn unpack<V: Simd>(self, code: V::Int) -> ([V::Int; 2], V::Int) {
+        let (cell, face) = div_rem::<V, 6>(code);
         // Quotient below 2^15, to within one.
-        let s = L::Int::splat(self.side);
-        let i = (L::from_int(cell) * L::splat(1.0 / self.side as f32)).floor().round_int();
+        let s = V::Int::splat(self.side);
+        let i = (V::from_int(cell) * V::splat(1.0 / self.side as f32)).floor().round_int();
         let j = cell - i * s;
-        let (early, late) = (j.lt(L::Int::splat(0)), !j.lt(s));
-        let one = L::Int::splat(1);
-        let i = L::Int::select(early, i - one, L::Int::select(late, i + one, i));
-        let j = L::Int::select(early, j + s, L::Int::select(late, j - s, j));
+        let (early, late) = (j.lt(V::Int::splat(0)), !j.lt(s));
+        let one = V::Int::splat(1);
+        let i = V::Int::select(early, i - one, V::Int::select(late, i + one, i));
+        let j = V::Int::select(early, j + s, V::Int::select(late, j - s, j));
         let beyond = !i.lt(s);
-        let last = L::Int::splat(self.side - 1);
-        let cell = [L::Int::select(beyond, last, i), L::Int::select(beyond, last, j)];
-        (cell, L::Int::select(beyond, L::Int::splat(5), face))
+        let last = V::Int::splat(self.side - 1);
+        let cell = [V::Int::select(beyond, last, i), V::Int::select(beyond, last, j)];
+        (cell, V::Int::select(beyond, V::Int::splat(5), face))
     }
 
     #[inline(never)]
-    fn decode<L: Lane>(self, code: L::Int) -> [L; 3] {
-        L::compiled_for(
+    fn decode<V: Simd>(self, code: V::Int) -> [V; 3] {
+        V::compiled_for(
             #[inline(always)]
             || {
-                let (cell, face) = self.unpack::<L>(code);
-                self.vector::<L>(cell, face)
+                let (cell, face) = self.unpack::<V>(code);
+                self.vector::<V>(cell, face)
             },
         )
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(self, code: L::Int, flips: [bool; 3]) -> L::Int {
-        let ([i, j], face) = self.unpack::<L>(code);
-        let flips = flips.each(|flip| L::Int::splat(-i32::from(flip)));
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
+        let ([i, j], face) = self.unpack::<V>(code);
+        let flips = flips.each(|flip| V::Int::splat(-i32::from(flip)));
         let turned = [0, 1, 2].each(|axis| turn_to_axis(flips, axis));
-        let pick = by_axis::<L>(face.shr(1));
+        let pick = by_axis::<V>(face.shr(1));
         let [main, a, b] =
             [0, 1, 2].each(|i: usize| pick(turned[0][i], turned[1][i], turned[2][i]));
         // From the other end: side + (-1 - i), and -1 - i is i with all bits flipped.
-        let side = L::Int::splat(self.side);
-        self.pack::<L>([(i ^ a) + (side & a), (j ^ b) + (side & b)], face ^ main.low(1))
+        let side = V::Int::splat(self.side);
+        self.pack::<V>([(i ^ a) + (side & a), (j ^ b) + (side & b)], face ^ main.low(1))
     }
 
     /// Cells from the middle of an edge to its end.
@@ -377,17 +377,17 @@ impl Cells {
     }
 
     #[inline(never)]
-    fn fold<L: Lane>(self, code: L::Int) -> (L::Int, [L::Mask; 3]) {
-        L::compiled_for(
+    fn fold<V: Simd>(self, code: V::Int) -> (V::Int, [V::Mask; 3]) {
+        V::compiled_for(
             #[inline(always)]
             || {
-                let zero = L::Int::splat(0);
-                let (cell, face) = self.unpack::<L>(code);
+                let zero = V::Int::splat(0);
+                let (cell, face) = self.unpack::<V>(code);
                 let axis = face.shr(1);
-                let [a, b] = cell.each(|i| i + i + L::Int::splat(1 - self.side));
-                let half = L::Int::splat(self.half_side());
+                let [a, b] = cell.each(|i| i + i + V::Int::splat(1 - self.side));
+                let half = V::Int::splat(self.half_side());
                 let index = (axis * half + a.abs().shr(1)) * half + b.abs().shr(1);
-                let point = turn_back([-face.low(1), a, b], by_axis::<L>(axis));
+                let point = turn_back([-face.low(1), a, b], by_axis::<V>(axis));
                 (index, point.each(|i| i.lt(zero)))
             },
         )
@@ -398,29 +398,29 @@ impl<const BITS: u32> Formula for AngularCube<BITS> {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         Self::CELLS.encode(v)
     }
 
     #[inline(always)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
         Self::CELLS.encode_precise(v)
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
         Self::CELLS.decode(code.low(BITS))
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        let (cell, face) = Self::CELLS.unpack::<L>(code.low(BITS));
-        Self::CELLS.pack::<L>(cell, face)
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        let (cell, face) = Self::CELLS.unpack::<V>(code.low(BITS));
+        Self::CELLS.pack::<V>(cell, face)
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
-        Self::CELLS.mirror::<L>(code.low(BITS), flips)
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+        Self::CELLS.mirror::<V>(code.low(BITS), flips)
     }
 }
 
@@ -431,21 +431,21 @@ impl<const BITS: u32> Symmetric for AngularCube<BITS> {
     };
 
     #[inline(always)]
-    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
-        Self::CELLS.fold::<L>(code.low(BITS))
+    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
+        Self::CELLS.fold::<V>(code.low(BITS))
     }
 }
 
 /// Quotient and remainder of an unsigned integer by a small `D`, at most 32: by halves, each exact
 /// in f32.
 #[inline(always)]
-fn div_rem<L: Lane, const D: i32>(n: L::Int) -> (L::Int, L::Int) {
-    let d = L::Int::splat(D);
+fn div_rem<V: Simd, const D: i32>(n: V::Int) -> (V::Int, V::Int) {
+    let d = V::Int::splat(D);
     // floor((n + 1/2) / D) is never within rounding of an integer.
     let divide = inlined(
         #[inline(always)]
-        |n: L::Int| {
-            ((L::from_int(n) + L::splat(0.5)) * L::splat(1.0 / D as f32)).floor().round_int()
+        |n: V::Int| {
+            ((V::from_int(n) + V::splat(0.5)) * V::splat(1.0 / D as f32)).floor().round_int()
         },
     );
     let high = divide(n.shr(16));

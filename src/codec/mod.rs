@@ -2,24 +2,17 @@
 
 use crate::batch::{self, Soa, SoaMut};
 use crate::error::LengthMismatch;
-use crate::format::Visitor;
-use crate::formula::{Behind, Formula};
+use crate::formula::{
+    Behind, Formula, cartesian, cube, disk, fibonacci, front_oct, hemi_oct, icosphere, latlong,
+    oct, octant, phi_z, spherical, xy_only,
+};
 
-mod cartesian;
-mod cube;
-mod disk;
-mod fibonacci;
-mod front_oct;
-mod hemi_oct;
-mod icosphere;
-mod latlong;
-pub(crate) mod oct;
-mod octant;
-mod phi_z;
-mod spherical;
-mod xy_only;
+mod format;
+mod report;
 
-pub use fibonacci::SphericalFibonacci;
+pub use crate::formula::fibonacci::SphericalFibonacci;
+pub use format::{UnknownFormat, Visitor};
+pub use report::ErrorReport;
 
 /// A representation of unit vectors: what a bit pattern means, and how to get there.
 ///

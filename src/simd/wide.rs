@@ -1,28 +1,28 @@
-//! The eight-lane form of [`Lane`], on `wide`.
+//! The eight-lane form of [`Simd`], on `wide`.
 //!
 //! Only operations that `wide` computes exactly on every target are used: see `clippy.toml` for
 //! those that are banned.
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use crate::lane::{Each, Lane, LaneInt, LaneMask, look_up, look_up3, look_up4};
+use crate::simd::{Each, Simd, SimdInt, SimdMask, look_up, look_up3, look_up4};
 use bytemuck::cast;
 use wide::{f32x8, i32x8, u32x8};
 
 /// Eight `f32`.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(crate) struct F8(f32x8);
+pub(crate) struct F32x8(f32x8);
 
 /// Eight wrapping 32-bit integers.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(crate) struct I8(i32x8);
+pub(crate) struct I32x8(i32x8);
 
 /// Eight truth values, all bits set or none.
 #[derive(Clone, Copy)]
 #[repr(transparent)]
-pub(crate) struct M8(i32x8);
+pub(crate) struct Mask32x8(i32x8);
 
 macro_rules! operators {
     ($($type:ident: $($trait:ident $method:ident),*;)*) => { $($(
@@ -37,38 +37,38 @@ macro_rules! operators {
 }
 
 operators! {
-    F8: Add add, Sub sub, Mul mul, Div div;
-    I8: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor;
-    M8: BitAnd bitand, BitOr bitor;
+    F32x8: Add add, Sub sub, Mul mul, Div div;
+    I32x8: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor;
+    Mask32x8: BitAnd bitand, BitOr bitor;
 }
 
-impl Neg for F8 {
+impl Neg for F32x8 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        F8(cast::<i32x8, f32x8>(cast::<f32x8, i32x8>(self.0) ^ i32x8::splat(i32::MIN)))
+        F32x8(cast::<i32x8, f32x8>(cast::<f32x8, i32x8>(self.0) ^ i32x8::splat(i32::MIN)))
     }
 }
 
-impl Neg for I8 {
+impl Neg for I32x8 {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        I8(i32x8::splat(0) - self.0)
+        I32x8(i32x8::splat(0) - self.0)
     }
 }
 
-impl Not for M8 {
+impl Not for Mask32x8 {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        M8(!self.0)
+        Mask32x8(!self.0)
     }
 }
 
-impl Lane for F8 {
-    type Int = I8;
-    type Mask = M8;
+impl Simd for F32x8 {
+    type Int = I32x8;
+    type Mask = Mask32x8;
     type Block<T: Copy + 'static> = [T; 8];
 
     #[inline(always)]
@@ -81,100 +81,100 @@ impl Lane for F8 {
     }
     #[inline(always)]
     fn splat(x: f32) -> Self {
-        F8(f32x8::splat(x))
+        F32x8(f32x8::splat(x))
     }
     #[inline(always)]
     fn load(block: &[f32; 8]) -> Self {
-        F8(f32x8::new(*block))
+        F32x8(f32x8::new(*block))
     }
     #[inline(always)]
     fn store(self, block: &mut [f32; 8]) {
         *block = self.0.to_array();
     }
     #[inline(always)]
-    fn load_int<T: Copy + 'static>(block: &[T; 8], f: impl Fn(T) -> u32) -> I8 {
-        I8(i32x8::new(block.map(|t| f(t) as i32)))
+    fn load_int<T: Copy + 'static>(block: &[T; 8], f: impl Fn(T) -> u32) -> I32x8 {
+        I32x8(i32x8::new(block.map(|t| f(t) as i32)))
     }
     #[inline(always)]
-    fn store_int<T: Copy + 'static>(int: I8, block: &mut [T; 8], f: impl Fn(&mut T, u32)) {
+    fn store_int<T: Copy + 'static>(int: I32x8, block: &mut [T; 8], f: impl Fn(&mut T, u32)) {
         for (t, i) in block.iter_mut().zip(int.0.to_array()) {
             f(t, i as u32);
         }
     }
     #[inline(always)]
-    fn from_bits(bits: I8) -> Self {
-        F8(cast(bits.0))
+    fn from_bits(bits: I32x8) -> Self {
+        F32x8(cast(bits.0))
     }
     #[inline(always)]
-    fn to_bits(self) -> I8 {
-        I8(cast(self.0))
+    fn to_bits(self) -> I32x8 {
+        I32x8(cast(self.0))
     }
     #[inline(always)]
-    fn from_int(i: I8) -> Self {
-        F8(i.0.round_float())
+    fn from_int(i: I32x8) -> Self {
+        F32x8(i.0.round_float())
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> M8 {
-        M8(cast(self.0.simd_lt(other.0)))
+    fn lt(self, other: Self) -> Mask32x8 {
+        Mask32x8(cast(self.0.simd_lt(other.0)))
     }
     #[inline(always)]
-    fn le(self, other: Self) -> M8 {
-        M8(cast(self.0.simd_le(other.0)))
+    fn le(self, other: Self) -> Mask32x8 {
+        Mask32x8(cast(self.0.simd_le(other.0)))
     }
     #[inline(always)]
-    fn select(mask: M8, yes: Self, no: Self) -> Self {
-        F8(cast::<i32x8, f32x8>(mask.0).select(yes.0, no.0))
+    fn select(mask: Mask32x8, yes: Self, no: Self) -> Self {
+        F32x8(cast::<i32x8, f32x8>(mask.0).select(yes.0, no.0))
     }
     #[inline(always)]
-    fn gather<T: Copy + Into<u32>>(table: &[T], index: I8) -> I8 {
-        I8(i32x8::new(index.0.to_array().map(|i| look_up(table, i))))
+    fn gather<T: Copy + Into<u32>>(table: &[T], index: I32x8) -> I32x8 {
+        I32x8(i32x8::new(index.0.to_array().map(|i| look_up(table, i))))
     }
     #[inline(always)]
-    fn gather4(table: &[u32], index: I8) -> [I8; 4] {
+    fn gather4(table: &[u32], index: I32x8) -> [I32x8; 4] {
         let fours = index.0.to_array().map(|i| look_up4(table, i));
-        [0, 1, 2, 3].each(|i: usize| I8(i32x8::new(fours.map(|four| four[i]))))
+        [0, 1, 2, 3].each(|i: usize| I32x8(i32x8::new(fours.map(|four| four[i]))))
     }
     #[inline(always)]
-    fn gather3(table: &[[f32; 3]], index: I8) -> [Self; 3] {
+    fn gather3(table: &[[f32; 3]], index: I32x8) -> [Self; 3] {
         let vectors = index.0.to_array().map(|i| look_up3(table, i));
-        [0, 1, 2].each(|c: usize| F8(f32x8::new(vectors.map(|v| v[c]))))
+        [0, 1, 2].each(|c: usize| F32x8(f32x8::new(vectors.map(|v| v[c]))))
     }
 }
 
-impl LaneInt for I8 {
-    type Mask = M8;
+impl SimdInt for I32x8 {
+    type Mask = Mask32x8;
 
     #[inline(always)]
     fn splat(i: i32) -> Self {
-        I8(i32x8::splat(i))
+        I32x8(i32x8::splat(i))
     }
     #[inline(always)]
     fn shl(self, bits: u32) -> Self {
-        I8(self.0 << bits)
+        I32x8(self.0 << bits)
     }
     #[inline(always)]
     fn shr(self, bits: u32) -> Self {
-        I8(cast(cast::<i32x8, u32x8>(self.0) >> bits))
+        I32x8(cast(cast::<i32x8, u32x8>(self.0) >> bits))
     }
     #[inline(always)]
     fn sar(self, bits: u32) -> Self {
-        I8(self.0 >> bits)
+        I32x8(self.0 >> bits)
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> M8 {
-        M8(self.0.simd_lt(other.0))
+    fn lt(self, other: Self) -> Mask32x8 {
+        Mask32x8(self.0.simd_lt(other.0))
     }
     #[inline(always)]
-    fn eq(self, other: Self) -> M8 {
-        M8(self.0.simd_eq(other.0))
+    fn eq(self, other: Self) -> Mask32x8 {
+        Mask32x8(self.0.simd_eq(other.0))
     }
     #[inline(always)]
-    fn select(mask: M8, yes: Self, no: Self) -> Self {
-        I8(mask.0.select(yes.0, no.0))
+    fn select(mask: Mask32x8, yes: Self, no: Self) -> Self {
+        I32x8(mask.0.select(yes.0, no.0))
     }
 }
 
-impl LaneMask for M8 {
+impl SimdMask for Mask32x8 {
     #[inline(always)]
     fn any(self) -> bool {
         self.0.any()

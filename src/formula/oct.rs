@@ -35,12 +35,12 @@
 
 use core::marker::PhantomData;
 
+use crate::formula::bits::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
 use crate::formula::{
     Closest, Formula, Lattice, One, Symmetric, closest_of_four, mirror_decoded, negate_if,
 };
-use crate::lane::{Each, Lane, LaneInt, inlined};
-use crate::layout::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
-use crate::math;
+use crate::simd::math;
+use crate::simd::{Each, Simd, SimdInt, inlined};
 
 /// Octahedral with the map `P` in `BITS` bits; the steps are a multiple of `MULTIPLE`.
 pub(crate) struct Oct<P, const BITS: u32, const MULTIPLE: i32 = 1>(PhantomData<P>);
@@ -48,25 +48,25 @@ pub(crate) struct Oct<P, const BITS: u32, const MULTIPLE: i32 = 1>(PhantomData<P
 /// How an octant of the sphere is mapped to a face of the octahedron.
 pub(crate) trait Projection: 'static {
     /// The point of |v|, whose components add to `m`.
-    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3];
+    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3];
     /// The unit vector of a point whose magnitudes add to 1.
-    fn direction<L: Lane>(p: [L; 3]) -> [L; 3];
+    fn direction<V: Simd>(p: [V; 3]) -> [V; 3];
     /// The lattice point nearest to |v|: of the corners of the triangle around it.
     #[inline(always)]
-    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+    fn nearest<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
         let v = v.each(|c| c.abs());
         let (base, step) = triangle_around(Self::project(v, m), m);
         let mut closest = Closest::to(v);
         for axis in 0..3 {
             let mut q = base;
             q[axis] = q[axis] + step;
-            let decoded = Self::direction(q.each(|c| c * L::splat(1.0 / m as f32)));
-            closest.consider(L::Int::splat(axis as i32), decoded);
+            let decoded = Self::direction(q.each(|c| c * V::splat(1.0 / m as f32)));
+            closest.consider(V::Int::splat(axis as i32), decoded);
         }
         let axis = closest.code();
         [0, 1, 2].each(
             #[inline(always)]
-            |i: usize| L::select(axis.eq(L::Int::splat(i as i32)), base[i] + step, base[i]),
+            |i: usize| V::select(axis.eq(V::Int::splat(i as i32)), base[i] + step, base[i]),
         )
     }
 }
@@ -80,17 +80,17 @@ pub(crate) struct EqualArea;
 
 impl Projection for Central {
     #[inline(always)]
-    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
         let [x, y, z] = v.each(|c| c.abs());
-        let scale = L::splat(m as f32) / (x + y + z);
+        let scale = V::splat(m as f32) / (x + y + z);
         [x * scale, y * scale, z * scale]
     }
     #[inline(always)]
-    fn direction<L: Lane>(p: [L; 3]) -> [L; 3] {
+    fn direction<V: Simd>(p: [V; 3]) -> [V; 3] {
         math::normalize(p)
     }
     #[inline(always)]
-    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+    fn nearest<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
         nearest_on_octahedron(Self::project(v, m), m)
     }
 }
@@ -102,22 +102,22 @@ impl Warped {
 
     /// g(t) = t (1 + (k + q t) (1 - t)); odd.
     #[inline(always)]
-    fn warp<L: Lane>(t: L, [k, q]: [f32; 2]) -> L {
+    fn warp<V: Simd>(t: V, [k, q]: [f32; 2]) -> V {
         let magnitude = t.abs();
-        t * (L::splat(1.0) + (L::splat(k) + L::splat(q) * magnitude) * (L::splat(1.0) - magnitude))
+        t * (V::splat(1.0) + (V::splat(k) + V::splat(q) * magnitude) * (V::splat(1.0) - magnitude))
     }
 
     /// g'(t).
     #[inline(always)]
-    fn gradient<L: Lane>(t: L) -> L {
-        L::splat(1.0 + Self::K)
-            + t * (L::splat(2.0 * (Self::Q - Self::K)) - L::splat(3.0 * Self::Q) * t)
+    fn gradient<V: Simd>(t: V) -> V {
+        V::splat(1.0 + Self::K)
+            + t * (V::splat(2.0 * (Self::Q - Self::K)) - V::splat(3.0 * Self::Q) * t)
     }
 }
 
 impl Projection for Warped {
     #[inline(always)]
-    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
         let target = v.each(|c| c.abs());
         // Its inverse about, without which two steps would not be enough for 32 bits.
         let mut p = Central::project(v, 1).each(
@@ -135,8 +135,8 @@ impl Projection for Warped {
             );
             // Each gradient's inverse, and s, of one division.
             let (others, all) = ([y * z, z * x, x * y], x * y * z);
-            let (along, off) = (math::dot(target, others), L::splat(1.0) - (p[0] + p[1] + p[2]));
-            let inverse = L::splat(1.0) / (along * all);
+            let (along, off) = (math::dot(target, others), V::splat(1.0) - (p[0] + p[1] + p[2]));
+            let inverse = V::splat(1.0) / (along * all);
             let (s, per_all) =
                 ((math::dot(g, others) + off * all) * all * inverse, along * inverse);
             p = [0, 1, 2].each(
@@ -146,11 +146,11 @@ impl Projection for Warped {
         }
         p.each(
             #[inline(always)]
-            |t| t.greater(L::zero()) * L::splat(m as f32),
+            |t| t.greater(V::zero()) * V::splat(m as f32),
         )
     }
     #[inline(always)]
-    fn direction<L: Lane>(p: [L; 3]) -> [L; 3] {
+    fn direction<V: Simd>(p: [V; 3]) -> [V; 3] {
         math::normalize(p.each(
             #[inline(always)]
             |t| Self::warp(t, [Self::K, Self::Q]),
@@ -160,20 +160,20 @@ impl Projection for Warped {
 
 impl Projection for EqualArea {
     #[inline(always)]
-    fn project<L: Lane>(v: [L; 3], m: i32) -> [L; 3] {
+    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
         let [x, y, z] = math::normalize(v.each(|c| c.abs()));
         // 1 - z, and 1 - r, without cancellation.
-        let r = math::sqrt((x * x + y * y) / (L::splat(1.0) + z));
-        let k = z / (L::splat(1.0) + r);
+        let r = math::sqrt((x * x + y * y) / (V::splat(1.0) + z));
+        let k = z / (V::splat(1.0) + r);
         let a = math::atan2_half_turns(y, x);
-        let scale = L::splat(m as f32);
-        [r * (L::splat(1.0) - (a + a)) * scale, r * (a + a) * scale, k * scale]
+        let scale = V::splat(m as f32);
+        [r * (V::splat(1.0) - (a + a)) * scale, r * (a + a) * scale, k * scale]
     }
     #[inline(always)]
-    fn direction<L: Lane>([x, y, z]: [L; 3]) -> [L; 3] {
-        let one = L::splat(1.0);
+    fn direction<V: Simd>([x, y, z]: [V; 3]) -> [V; 3] {
+        let one = V::splat(1.0);
         let (r, k) = (x.abs() + y.abs(), z.abs());
-        let (sin, cos) = math::sin_cos_of_one(y.abs() / r.greater(L::splat(f32::MIN_POSITIVE)));
+        let (sin, cos) = math::sin_cos_of_one(y.abs() / r.greater(V::splat(f32::MIN_POSITIVE)));
         // 2 - r^2 = 1 + z.
         let height = k * (one + r);
         let h = r * math::sqrt(one + height);
@@ -190,40 +190,40 @@ impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Oct<P, BITS, MULTIPLE>
     const M: i32 = snorm_max(BITS / 2) / MULTIPLE * MULTIPLE;
 
     #[inline(always)]
-    fn unpack<L: Lane>(code: L::Int) -> [L::Int; 2] {
-        let params = unpack_snorm2::<BITS, L>(code);
+    fn unpack<V: Simd>(code: V::Int) -> [V::Int; 2] {
+        let params = unpack_snorm2::<BITS, V>(code);
         if MULTIPLE == 1 {
             return params;
         }
-        let max = L::Int::splat(Self::M);
+        let max = V::Int::splat(Self::M);
         params.each(|p| p.max(-max).min(max))
     }
 
     /// The lattice point, whose magnitudes add to `M`.
     #[inline(always)]
-    pub(crate) fn point<L: Lane>(code: L::Int) -> [L::Int; 3] {
-        unfold::<L>(Self::unpack::<L>(code), Self::M)
+    pub(crate) fn point<V: Simd>(code: V::Int) -> [V::Int; 3] {
+        unfold::<V>(Self::unpack::<V>(code), Self::M)
     }
 
     /// Of the point whose magnitudes are `x`, `y` and what is left of `m`, rounded, in the octant of `v`.
     #[inline(always)]
-    pub(crate) fn code_of<L: Lane>([x, y]: [L; 2], v: [L; 3]) -> L::Int {
-        let max = L::splat(Self::M as f32);
+    pub(crate) fn code_of<V: Simd>([x, y]: [V; 2], v: [V; 3]) -> V::Int {
+        let max = V::splat(Self::M as f32);
         // Fold the lower half over the diagonals.
-        let lower = v[2].lt(L::zero());
-        let u = L::select(lower, max - y, x).round_int();
-        let w = L::select(lower, max - x, y).round_int();
+        let lower = v[2].lt(V::zero());
+        let u = V::select(lower, max - y, x).round_int();
+        let w = V::select(lower, max - x, y).round_int();
         Self::finish([u, w], v)
     }
 
     /// Gives the magnitudes `u`, `w` the signs of `x`, `y`, but where a sign says nothing, plus.
     #[inline(always)]
-    fn finish<L: Lane>([u, w]: [L::Int; 2], [x, y, _]: [L; 3]) -> L::Int {
-        let max = L::Int::splat(Self::M);
-        let zero = L::zero();
-        pack_snorm2::<BITS, L>([
-            L::Int::select(x.lt(zero) & !w.eq(max), -u, u),
-            L::Int::select(y.lt(zero) & !u.eq(max), -w, w),
+    fn finish<V: Simd>([u, w]: [V::Int; 2], [x, y, _]: [V; 3]) -> V::Int {
+        let max = V::Int::splat(Self::M);
+        let zero = V::zero();
+        pack_snorm2::<BITS, V>([
+            V::Int::select(x.lt(zero) & !w.eq(max), -u, u),
+            V::Int::select(y.lt(zero) & !u.eq(max), -w, w),
         ])
     }
 }
@@ -232,40 +232,40 @@ impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Formula for Oct<P, BIT
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         let [x, y, _] = P::project(v, Self::M);
         Self::code_of([x, y], v)
     }
 
     #[inline(always)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
         let [i, j, _] = P::nearest(v, Self::M);
         Self::code_of([i, j], v)
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        P::direction(scaled(Self::point::<L>(code), Self::M))
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
+        P::direction(scaled(Self::point::<V>(code), Self::M))
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        let point = plus_on_border::<L>(Self::unpack::<L>(code), Self::M);
-        pack_snorm2::<BITS, L>(point)
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        let point = plus_on_border::<V>(Self::unpack::<V>(code), Self::M);
+        pack_snorm2::<BITS, V>(point)
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, [x, y, z]: [bool; 3]) -> L::Int {
-        let [u, w] = Self::unpack::<L>(code);
+    fn mirror<V: Simd>(code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
+        let [u, w] = Self::unpack::<V>(code);
         let point = [negate_if(u, x), negate_if(w, y)];
-        let point = if z { across_equator::<L>(point, Self::M) } else { point };
-        pack_snorm2::<BITS, L>(plus_on_border::<L>(point, Self::M))
+        let point = if z { across_equator::<V>(point, Self::M) } else { point };
+        pack_snorm2::<BITS, V>(plus_on_border::<V>(point, Self::M))
     }
 }
 
 impl<const BITS: u32, const MULTIPLE: i32> Lattice for Oct<Central, BITS, MULTIPLE> {
     #[inline(always)]
-    fn encode_one_of<L: Lane>(v: [L; 3], t: L) -> L::Int {
+    fn encode_one_of<V: Simd>(v: [V; 3], t: V) -> V::Int {
         let p = Central::project(v, Self::M);
         let (base, step) = triangle_around(p, Self::M);
         // Of the corner whose coordinate `axis` is a step off, the part that it has in p, times its length,
@@ -280,8 +280,8 @@ impl<const BITS: u32, const MULTIPLE: i32> Lattice for Oct<Central, BITS, MULTIP
         );
         let t = t * (a + b + c);
         let (first, second) = (t.lt(a), t.lt(a + b));
-        let zero = L::zero();
-        let steps = [L::select(first, step, zero), L::select(second & !first, step, zero)];
+        let zero = V::zero();
+        let steps = [V::select(first, step, zero), V::select(second & !first, step, zero)];
         Self::code_of([base[0] + steps[0], base[1] + steps[1]], v)
     }
 }
@@ -290,14 +290,14 @@ impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Symmetric for Oct<P, B
     const ENTRIES: usize = triangle_len(Self::M);
 
     #[inline(always)]
-    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
-        let (max, zero) = (L::Int::splat(Self::M), L::Int::splat(0));
-        let [u, w] = Self::unpack::<L>(code);
+    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
+        let (max, zero) = (V::Int::splat(Self::M), V::Int::splat(0));
+        let [u, w] = Self::unpack::<V>(code);
         let (i, j) = (u.abs(), w.abs());
         let lower = max.lt(i + j);
-        let (i, j) = (L::Int::select(lower, max - j, i), L::Int::select(lower, max - i, j));
+        let (i, j) = (V::Int::select(lower, max - j, i), V::Int::select(lower, max - i, j));
         let flips = [u.lt(zero) & zero.lt(i), w.lt(zero) & zero.lt(j), lower];
-        (triangle_index::<L>(i, j), flips)
+        (triangle_index::<V>(i, j), flips)
     }
 }
 
@@ -308,29 +308,29 @@ pub(crate) const fn triangle_len(m: i32) -> usize {
 
 /// The number of a point (i, j), counted by i + j.
 #[inline(always)]
-pub(crate) fn triangle_index<L: Lane>(i: L::Int, j: L::Int) -> L::Int {
+pub(crate) fn triangle_index<V: Simd>(i: V::Int, j: V::Int) -> V::Int {
     let n = i + j;
-    (n * (n + L::Int::splat(1))).shr(1) + j
+    (n * (n + V::Int::splat(1))).shr(1) + j
 }
 
 /// The point of the octahedron, whose magnitudes add to 1, of a lattice point.
 #[inline(always)]
-fn scaled<L: Lane>(p: [L::Int; 3], m: i32) -> [L; 3] {
+fn scaled<V: Simd>(p: [V::Int; 3], m: i32) -> [V; 3] {
     p.each(
         #[inline(always)]
-        |c| L::from_int(c) * L::splat(1.0 / m as f32),
+        |c| V::from_int(c) * V::splat(1.0 / m as f32),
     )
 }
 
 /// The lattice point, whose magnitudes add to m, of one of the square from -m to m.
 #[inline(always)]
-fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 3] {
-    let (max, zero) = (L::Int::splat(m), L::Int::splat(0));
+fn unfold<V: Simd>([u, w]: [V::Int; 2], m: i32) -> [V::Int; 3] {
+    let (max, zero) = (V::Int::splat(m), V::Int::splat(0));
     let (i, j) = (u.abs(), w.abs());
     let (left_i, left_j) = (max - j, max - i);
     let copy_sign = inlined(
         #[inline(always)]
-        |magnitude: L::Int, sign: L::Int| L::Int::select(sign.lt(zero), -magnitude, magnitude),
+        |magnitude: V::Int, sign: V::Int| V::Int::select(sign.lt(zero), -magnitude, magnitude),
     );
     // Below the diagonals, where more is left over than is there, fold back.
     [copy_sign(i.min(left_i), u), copy_sign(j.min(left_j), w), left_i - i]
@@ -338,18 +338,18 @@ fn unfold<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 3] {
 
 /// The point of the square from -m to m whose z is the opposite: its mirror image in the diagonal of its quarter.
 #[inline(always)]
-fn across_equator<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 2] {
-    let (max, zero) = (L::Int::splat(m), L::Int::splat(0));
+fn across_equator<V: Simd>([u, w]: [V::Int; 2], m: i32) -> [V::Int; 2] {
+    let (max, zero) = (V::Int::splat(m), V::Int::splat(0));
     let (i, j) = (max - w.abs(), max - u.abs());
-    [L::Int::select(u.lt(zero), -i, i), L::Int::select(w.lt(zero), -j, j)]
+    [V::Int::select(u.lt(zero), -i, i), V::Int::select(w.lt(zero), -j, j)]
 }
 
 /// The canonical one of a point of the square from -m to m and its mirror image on the border.
 #[inline(always)]
-fn plus_on_border<L: Lane>([u, w]: [L::Int; 2], m: i32) -> [L::Int; 2] {
-    let max = L::Int::splat(m);
+fn plus_on_border<V: Simd>([u, w]: [V::Int; 2], m: i32) -> [V::Int; 2] {
+    let max = V::Int::splat(m);
     let (au, aw) = (u.abs(), w.abs());
-    [L::Int::select(aw.eq(max), au, u), L::Int::select(au.eq(max), aw, w)]
+    [V::Int::select(aw.eq(max), au, u), V::Int::select(au.eq(max), aw, w)]
 }
 
 /// Octahedral in biased unorm, (c + 1) / 2, of `BITS / 2` bits each: the odd numbers from -m to m =
@@ -363,27 +363,27 @@ impl<const BITS: u32> OctUnorm<BITS> {
 
     /// The two parameters as indices from 0 to m.
     #[inline(always)]
-    fn params<L: Lane>(v: [L; 3]) -> [L; 2] {
+    fn params<V: Simd>(v: [V; 3]) -> [V; 2] {
         let [x, y, z] = v.each(|c| c.abs());
-        let half = L::splat(0.5 * Self::M as f32);
+        let half = V::splat(0.5 * Self::M as f32);
         let scale = half / (x + y + z);
         let (x, y) = (x * scale, y * scale);
-        let lower = v[2].lt(L::zero());
-        let u = L::select(lower, half - y, x).negate_where_negative(v[0]);
-        let w = L::select(lower, half - x, y).negate_where_negative(v[1]);
+        let lower = v[2].lt(V::zero());
+        let u = V::select(lower, half - y, x).negate_where_negative(v[0]);
+        let w = V::select(lower, half - x, y).negate_where_negative(v[1]);
         [u + half, w + half]
     }
 
     /// The nearest point of the square, canonical.
     #[inline(always)]
-    fn canonical_point<L: Lane>(indices: [L::Int; 2]) -> [L::Int; 2] {
-        let max = L::Int::splat(Self::M);
-        plus_on_border::<L>(indices.each(|i| (i + i - max).max(-max).min(max)), Self::M)
+    fn canonical_point<V: Simd>(indices: [V::Int; 2]) -> [V::Int; 2] {
+        let max = V::Int::splat(Self::M);
+        plus_on_border::<V>(indices.each(|i| (i + i - max).max(-max).min(max)), Self::M)
     }
 
     #[inline(always)]
-    fn pack<L: Lane>(point: [L::Int; 2]) -> L::Int {
-        pack2::<BITS, L>(point.each(|i| (i + L::Int::splat(Self::M)).sar(1)))
+    fn pack<V: Simd>(point: [V::Int; 2]) -> V::Int {
+        pack2::<BITS, V>(point.each(|i| (i + V::Int::splat(Self::M)).sar(1)))
     }
 }
 
@@ -391,74 +391,74 @@ impl<const BITS: u32> Formula for OctUnorm<BITS> {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         let indices = Self::params(v).each(|p| p.round_int());
-        Self::pack::<L>(Self::canonical_point::<L>(indices))
+        Self::pack::<V>(Self::canonical_point::<V>(indices))
     }
 
     #[inline(always)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
         closest_of_four(
             v,
             Self::params(v),
             #[inline(always)]
             |indices| {
-                let point = Self::canonical_point::<L>(indices);
-                let p = scaled(unfold::<L>(point, Self::M), Self::M);
-                (Self::pack::<L>(point), Central::direction(p))
+                let point = Self::canonical_point::<V>(indices);
+                let p = scaled(unfold::<V>(point, Self::M), Self::M);
+                (Self::pack::<V>(point), Central::direction(p))
             },
         )
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        let max = L::Int::splat(Self::M);
-        let point = unpack2::<BITS, L>(code).each(|i| i + i - max);
-        Central::direction(scaled(unfold::<L>(point, Self::M), Self::M))
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
+        let max = V::Int::splat(Self::M);
+        let point = unpack2::<BITS, V>(code).each(|i| i + i - max);
+        Central::direction(scaled(unfold::<V>(point, Self::M), Self::M))
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        Self::pack::<L>(Self::canonical_point::<L>(unpack2::<BITS, L>(code)))
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        Self::pack::<V>(Self::canonical_point::<V>(unpack2::<BITS, V>(code)))
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
         let [x, y, z] = flips;
         if z {
             // Odd numbers, folded over the diagonals, are even.
-            return mirror_decoded::<Self, L>(code, flips);
+            return mirror_decoded::<Self, V>(code, flips);
         }
-        let [u, w] = unpack2::<BITS, L>(code);
+        let [u, w] = unpack2::<BITS, V>(code);
         let index = inlined(
             #[inline(always)]
-            |i: L::Int, flip: bool| if flip { L::Int::splat(Self::M) - i } else { i },
+            |i: V::Int, flip: bool| if flip { V::Int::splat(Self::M) - i } else { i },
         );
-        Self::pack::<L>(Self::canonical_point::<L>([index(u, x), index(w, y)]))
+        Self::pack::<V>(Self::canonical_point::<V>([index(u, x), index(w, y)]))
     }
 }
 
 /// The triangle of the lattice i + j + k = m that `p` lies in, whose components are >= 0 and add to m:
 /// a point, and what has to be added to one component or another for its corners.
 #[inline(always)]
-pub(crate) fn triangle_around<L: Lane>(p: [L; 3], m: i32) -> ([L; 3], L) {
-    let max = L::splat(m as f32);
-    let one = L::splat(1.0);
+pub(crate) fn triangle_around<V: Simd>(p: [V; 3], m: i32) -> ([V; 3], V) {
+    let max = V::splat(m as f32);
+    let one = V::splat(1.0);
     let floor = p.each(
         #[inline(always)]
         |c| c.floor(),
     );
     // One short of M above the floors, or two.
     let short = max - floor[0] - floor[1] - floor[2];
-    let down = L::splat(1.5).lt(short);
-    let base = floor.each(|c| L::select(down, c + one, c));
+    let down = V::splat(1.5).lt(short);
+    let base = floor.each(|c| V::select(down, c + one, c));
     (base, max - base[0] - base[1] - base[2])
 }
 
 /// Of the lattice points i + j + k = m of an octant, the one nearest in angle to `p`, whose
 /// components are >= 0 and add to m.
 #[inline(always)]
-pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
+pub(crate) fn nearest_on_octahedron<V: Simd>(p: [V; 3], m: i32) -> [V; 3] {
     let (base, step) = triangle_around(p, m);
     // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
     let pp = math::length_squared(p);
@@ -475,11 +475,11 @@ pub(crate) fn nearest_on_octahedron<L: Lane>(p: [L; 3], m: i32) -> [L; 3] {
     );
     let closer = inlined(
         #[inline(always)]
-        |a: ([L; 3], L, L), b: ([L; 3], L, L)| {
+        |a: ([V; 3], V, V), b: ([V; 3], V, V)| {
             let b_wins = (b.1 * a.2).lt(a.1 * b.2);
             let pick = inlined(
                 #[inline(always)]
-                |a, b| L::select(b_wins, b, a),
+                |a, b| V::select(b_wins, b, a),
             );
             let q = [0, 1, 2].each(|i: usize| pick(a.0[i], b.0[i]));
             (q, pick(a.1, b.1), pick(a.2, b.2))

@@ -20,11 +20,11 @@
 //! Source: the wish for such a code, which is Sloan's, is in Cigolle et al., "A Survey of Efficient
 //! Representations for Independent Unit Vectors", 2014, "Conclusions"; the map is unitpack's.
 
-use crate::codec::oct::{Central, Oct, Projection, triangle_around};
+use crate::formula::bits::snorm_max;
+use crate::formula::oct::{Central, Oct, Projection, triangle_around};
 use crate::formula::{Closest, Formula, One, mirror_decoded};
-use crate::lane::{Each, Lane, inlined};
-use crate::layout::snorm_max;
-use crate::math;
+use crate::simd::math;
+use crate::simd::{Each, Simd, inlined};
 
 /// Oct in `BITS` bits, `F` times as fine at +Z.
 pub(crate) struct FrontOct<const BITS: u32, const F: u32>;
@@ -37,26 +37,26 @@ impl<const BITS: u32, const F: u32> FrontOct<BITS, F> {
 
     /// (k x, k y, z + b |v|) or, `back`, (k x, k y, z - b |v|), times a length; without cancellation.
     #[inline(always)]
-    fn shifted<L: Lane>([x, y, z]: [L; 3], back: bool) -> [L; 3] {
-        let (k, b) = (L::splat(Self::K), L::splat(Self::B));
+    fn shifted<V: Simd>([x, y, z]: [V; 3], back: bool) -> [V; 3] {
+        let (k, b) = (V::splat(Self::K), V::splat(Self::B));
         let length = math::sqrt(math::length_squared([x, y, z]));
-        let factor = L::splat((F * F + 1) as f32) * z.abs() + b * length;
+        let factor = V::splat((F * F + 1) as f32) * z.abs() + b * length;
         // Away from the pole z + b |v| = (z^2 - b^2 |v|^2) / (z - b |v|), and z^2 - b^2 |v|^2 =
         // k^2 z^2 - b^2 (x^2 + y^2). In integers it is exact where it is zero on an axis.
         let (long, short) = (x.abs().greater(y.abs()) * b, x.abs().lesser(y.abs()) * b);
         let away = (k * z - long) * (k * z + long) - short * short;
-        let below = z.lt(L::zero());
+        let below = z.lt(V::zero());
         let towards = if back { below } else { !below };
-        let height = L::select(towards, factor * factor, away).negate_where_negative(z);
+        let height = V::select(towards, factor * factor, away).negate_where_negative(z);
         [x * k * factor, y * k * factor, height]
     }
 
     /// The vector of a lattice point.
     #[inline(always)]
-    fn direction<L: Lane>(p: [L; 3]) -> [L; 3] {
+    fn direction<V: Simd>(p: [V; 3]) -> [V; 3] {
         let v = math::normalize(Self::shifted(p, false));
         // Once more, so that the axes are exact.
-        let r = L::splat(1.5) - L::splat(0.5) * math::length_squared(v);
+        let r = V::splat(1.5) - V::splat(0.5) * math::length_squared(v);
         v.each(|c| c * r)
     }
 }
@@ -65,19 +65,19 @@ impl<const BITS: u32, const F: u32> Formula for FrontOct<BITS, F> {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         Oct::<Central, BITS>::encode(Self::shifted(v, true))
     }
 
     #[inline(always)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
         let v = math::normalize(v);
         let n = Self::shifted(v, true);
         let (base, step) = triangle_around(Central::project(n, Self::M), Self::M);
         let [x_sign, y_sign, z_sign] = n;
         let point = inlined(
             #[inline(always)]
-            |[x, y, z]: [L; 3]| {
+            |[x, y, z]: [V; 3]| {
                 let signed = [
                     x.negate_where_negative(x_sign),
                     y.negate_where_negative(y_sign),
@@ -101,10 +101,10 @@ impl<const BITS: u32, const F: u32> Formula for FrontOct<BITS, F> {
             beyond[axis] = base[axis] - step;
             let corner = base[axis] + step;
             mirrored[axis] = if axis == 2 { -corner } else { corner };
-            let outside = beyond[axis].lt(L::zero());
+            let outside = beyond[axis].lt(V::zero());
             let beyond = [0, 1, 2].each(
                 #[inline(always)]
-                |i: usize| L::select(outside, mirrored[i], beyond[i]),
+                |i: usize| V::select(outside, mirrored[i], beyond[i]),
             );
             let (code, decoded) = point(beyond);
             closest.consider(code, decoded);
@@ -113,21 +113,21 @@ impl<const BITS: u32, const F: u32> Formula for FrontOct<BITS, F> {
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        Self::direction(Oct::<Central, BITS>::point::<L>(code).each(L::from_int))
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
+        Self::direction(Oct::<Central, BITS>::point::<V>(code).each(V::from_int))
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        Oct::<Central, BITS>::canonical::<L>(code)
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        Oct::<Central, BITS>::canonical::<V>(code)
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
         if flips[2] {
-            mirror_decoded::<Self, L>(code, flips)
+            mirror_decoded::<Self, V>(code, flips)
         } else {
-            Oct::<Central, BITS>::mirror::<L>(code, flips)
+            Oct::<Central, BITS>::mirror::<V>(code, flips)
         }
     }
 }

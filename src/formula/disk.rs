@@ -34,26 +34,26 @@
 
 use core::marker::PhantomData;
 
+use crate::formula::bits::{pack_snorm2, snorm_max, unpack_snorm2};
 use crate::formula::{Closest, Formula, One, Symmetric, mirror_decoded, negate_if, not_if};
-use crate::lane::{Each, Lane, LaneInt, LaneMask, inlined};
-use crate::layout::{pack_snorm2, snorm_max, unpack_snorm2};
-use crate::math::{
+use crate::simd::math::{
     atan2_half_turns, chord_squared, inv_sqrt, length_squared, normalize, sin_cos_of_half,
     sin_cos_of_one, sqrt,
 };
+use crate::simd::{Each, Simd, SimdInt, SimdMask, inlined};
 
 /// A disk projection `P`, stretched by `S`, in `BITS` bits.
 pub(crate) struct Disk<P, S, const BITS: u32>(PhantomData<(P, S)>);
 
 /// A point of the disk or, past the equator, outside it.
 #[derive(Clone, Copy)]
-pub(crate) struct OnDisk<L> {
-    x: L,
-    y: L,
+pub(crate) struct OnDisk<V> {
+    x: V,
+    y: V,
     /// 1 - x^2 - y^2.
-    d: L,
+    d: V,
     /// 2 - x^2 - y^2.
-    e: L,
+    e: V,
 }
 
 /// From a hemisphere, whose pole is z = 1, to the unit disk.
@@ -62,18 +62,18 @@ pub(crate) trait Projection: 'static {
     const POLE_IN_CORNERS: bool = false;
 
     /// Of a unit vector with z >= 0 or, if it is to be seen `past` the equator, z <= 0.
-    fn to_disk<L: Lane>(v: [L; 3], past: bool) -> OnDisk<L>;
+    fn to_disk<V: Simd>(v: [V; 3], past: bool) -> OnDisk<V>;
     /// x^2 + y^2 may be up to 2.
-    fn from_disk<L: Lane>(point: OnDisk<L>) -> [L; 3];
+    fn from_disk<V: Simd>(point: OnDisk<V>) -> [V; 3];
     /// Of a point of the square whose sides are stretched by `S`.
     #[inline(always)]
-    fn from_square<S: Stretch, L: Lane>(square: [L::Int; 2], m: i32) -> [L; 3] {
-        Self::from_disk(S::from_square::<L>(square, m))
+    fn from_square<S: Stretch, V: Simd>(square: [V::Int; 2], m: i32) -> [V; 3] {
+        Self::from_disk(S::from_square::<V>(square, m))
     }
     /// Whether (u, v) / m, outside the disk, stands for the same direction as a point inside that of
     /// the other hemisphere; and that point.
     #[inline(always)]
-    fn double<L: Lane>(outer: [L::Int; 2], _m: i32) -> (L::Mask, [L::Int; 2]) {
+    fn double<V: Simd>(outer: [V::Int; 2], _m: i32) -> (V::Mask, [V::Int; 2]) {
         (outer[0].lt(outer[0]), outer)
     }
 }
@@ -95,12 +95,12 @@ pub(crate) trait Stretch: 'static {
     /// stand far along a diagonal.
     const SHEARED: bool = false;
 
-    fn to_square<L: Lane>(point: OnDisk<L>) -> [L; 2];
+    fn to_square<V: Simd>(point: OnDisk<V>) -> [V; 2];
     /// Of integers from -m to m. Exact where d or e is zero.
-    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L>;
+    fn from_square<V: Simd>(square: [V::Int; 2], m: i32) -> OnDisk<V>;
     /// The same with x and y times sqrt(e).
     #[inline(always)]
-    fn from_square_by_root_e<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
+    fn from_square_by_root_e<V: Simd>(square: [V::Int; 2], m: i32) -> OnDisk<V> {
         let OnDisk { x, y, d, e } = Self::from_square(square, m);
         let k = sqrt(e);
         OnDisk { x: x * k, y: y * k, d, e }
@@ -108,22 +108,22 @@ pub(crate) trait Stretch: 'static {
 }
 
 #[inline(always)]
-fn scaled<L: Lane>(square: [L::Int; 2], m: i32) -> [L; 2] {
-    square.each(|i| L::from_int(i) * L::splat(1.0 / m as f32))
+fn scaled<V: Simd>(square: [V::Int; 2], m: i32) -> [V; 2] {
+    square.each(|i| V::from_int(i) * V::splat(1.0 / m as f32))
 }
 
 /// 1 - (i / m)^2, exact where it is zero.
 #[inline(always)]
-fn one_minus_square<L: Lane>(i: L::Int, m: i32) -> L {
-    let (max, scale) = (L::Int::splat(m), L::splat(1.0 / m as f32));
-    (L::from_int(max - i) * scale) * (L::from_int(max + i) * scale)
+fn one_minus_square<V: Simd>(i: V::Int, m: i32) -> V {
+    let (max, scale) = (V::Int::splat(m), V::splat(1.0 / m as f32));
+    (V::from_int(max - i) * scale) * (V::from_int(max + i) * scale)
 }
 
 /// 1 + z of a unit vector; past the equator without cancellation, and at least 1e-30.
 #[inline(always)]
-fn one_plus_z<L: Lane>([x, y, z]: [L; 3], past: bool) -> L {
-    let one = L::splat(1.0);
-    if past { (x * x + y * y).greater(L::splat(1e-30)) / (one - z) } else { one + z }
+fn one_plus_z<V: Simd>([x, y, z]: [V; 3], past: bool) -> V {
+    let one = V::splat(1.0);
+    if past { (x * x + y * y).greater(V::splat(1e-30)) / (one - z) } else { one + z }
 }
 
 /// Stereographic.
@@ -131,13 +131,13 @@ pub(crate) struct Stereo;
 
 impl Projection for Stereo {
     #[inline(always)]
-    fn to_disk<L: Lane>([x, y, z]: [L; 3], past: bool) -> OnDisk<L> {
-        let k = L::splat(1.0) / one_plus_z([x, y, z], past);
+    fn to_disk<V: Simd>([x, y, z]: [V; 3], past: bool) -> OnDisk<V> {
+        let k = V::splat(1.0) / one_plus_z([x, y, z], past);
         let d = (z + z) * k;
-        OnDisk { x: x * k, y: y * k, d, e: L::splat(1.0) + d }
+        OnDisk { x: x * k, y: y * k, d, e: V::splat(1.0) + d }
     }
     #[inline(always)]
-    fn from_disk<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 3] {
+    fn from_disk<V: Simd>(OnDisk { x, y, d, .. }: OnDisk<V>) -> [V; 3] {
         normalize([x + x, y + y, d])
     }
 }
@@ -149,22 +149,22 @@ impl Projection for EqArea {
     const POLE_IN_CORNERS: bool = true;
 
     #[inline(always)]
-    fn to_disk<L: Lane>([x, y, z]: [L; 3], past: bool) -> OnDisk<L> {
+    fn to_disk<V: Simd>([x, y, z]: [V; 3], past: bool) -> OnDisk<V> {
         let e = one_plus_z([x, y, z], past);
         let k = inv_sqrt(e);
         OnDisk { x: x * k, y: y * k, d: z, e }
     }
     #[inline(always)]
-    fn from_disk<L: Lane>(OnDisk { x, y, d, e }: OnDisk<L>) -> [L; 3] {
+    fn from_disk<V: Simd>(OnDisk { x, y, d, e }: OnDisk<V>) -> [V; 3] {
         let k = sqrt(e);
         normalize([x * k, y * k, d])
     }
     #[inline(always)]
-    fn from_square<S: Stretch, L: Lane>(square: [L::Int; 2], m: i32) -> [L; 3] {
-        let OnDisk { x, y, d, .. } = S::from_square_by_root_e::<L>(square, m);
+    fn from_square<S: Stretch, V: Simd>(square: [V::Int; 2], m: i32) -> [V; 3] {
+        let OnDisk { x, y, d, .. } = S::from_square_by_root_e::<V>(square, m);
         // Its length is 1 up to the rounding of the roots.
         let v = [x, y, d];
-        let r = L::splat(1.5) - L::splat(0.5) * length_squared(v);
+        let r = V::splat(1.5) - V::splat(0.5) * length_squared(v);
         v.each(|c| c * r)
     }
 }
@@ -174,8 +174,8 @@ pub(crate) struct EqDist;
 
 impl Projection for EqDist {
     #[inline(always)]
-    fn to_disk<L: Lane>([x, y, z]: [L; 3], _: bool) -> OnDisk<L> {
-        let hh = (x * x + y * y).greater(L::splat(1e-30));
+    fn to_disk<V: Simd>([x, y, z]: [V; 3], _: bool) -> OnDisk<V> {
+        let hh = (x * x + y * y).greater(V::splat(1e-30));
         let per_h = inv_sqrt(hh);
         let h = hh * per_h;
         let r = atan2_half_turns(h, z);
@@ -183,15 +183,15 @@ impl Projection for EqDist {
         let short = atan2_half_turns(z, h);
         let (r, short) = (r + r, short + short);
         let k = r * per_h;
-        let d = short * (L::splat(1.0) + r);
-        OnDisk { x: x * k, y: y * k, d, e: L::splat(1.0) + d }
+        let d = short * (V::splat(1.0) + r);
+        OnDisk { x: x * k, y: y * k, d, e: V::splat(1.0) + d }
     }
     #[inline(always)]
-    fn from_disk<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 3] {
-        let rr = (x * x + y * y).greater(L::splat(1e-30));
+    fn from_disk<V: Simd>(OnDisk { x, y, d, .. }: OnDisk<V>) -> [V; 3] {
+        let rr = (x * x + y * y).greater(V::splat(1e-30));
         let per_r = inv_sqrt(rr);
         // The angle above the equator is 1 - r quarter turns, and 1 - r = d / (1 + r).
-        let short = d / (L::splat(1.0) + rr * per_r);
+        let short = d / (V::splat(1.0) + rr * per_r);
         let (sin, cos) = sin_cos_of_one(short);
         let k = cos * per_r;
         [x * k, y * k, sin]
@@ -199,17 +199,17 @@ impl Projection for EqDist {
     /// (u, v) at the distance r is the direction of (2 m - r) / r times (u, v): an integer point if r
     /// is an integer and divides the product.
     #[inline(always)]
-    fn double<L: Lane>(outer: [L::Int; 2], m: i32) -> (L::Mask, [L::Int; 2]) {
+    fn double<V: Simd>(outer: [V::Int; 2], m: i32) -> (V::Mask, [V::Int; 2]) {
         let [u, v] = outer;
         let rr = u * u + v * v;
-        let r = sqrt(L::from_int(rr)).round_int();
-        let ratio = L::from_int(L::Int::splat(2 * m) - r) / L::from_int(r.max(L::Int::splat(1)));
-        let inner = outer.each(|c| (L::from_int(c) * ratio).round_int());
+        let r = sqrt(V::from_int(rr)).round_int();
+        let ratio = V::from_int(V::Int::splat(2 * m) - r) / V::from_int(r.max(V::Int::splat(1)));
+        let inner = outer.each(|c| (V::from_int(c) * ratio).round_int());
         let [u_whole, v_whole] =
-            [0, 1].each(|i: usize| (inner[i] * r).eq(outer[i] * (L::Int::splat(2 * m) - r)));
+            [0, 1].each(|i: usize| (inner[i] * r).eq(outer[i] * (V::Int::splat(2 * m) - r)));
         // A column's u is odd, as m is.
-        let column = inner[0].low(1).eq(L::Int::splat(1));
-        ((r * r).eq(rr) & L::Int::splat(m).lt(r) & u_whole & v_whole & column, inner)
+        let column = inner[0].low(1).eq(V::Int::splat(1));
+        ((r * r).eq(rr) & V::Int::splat(m).lt(r) & u_whole & v_whole & column, inner)
     }
 }
 
@@ -221,17 +221,17 @@ impl Stretch for Plain {
     const WINDOW: [Span; 2] = [Span { before: 1, count: 4 }, Span { before: 2, count: 6 }];
 
     #[inline(always)]
-    fn to_square<L: Lane>(OnDisk { x, y, .. }: OnDisk<L>) -> [L; 2] {
+    fn to_square<V: Simd>(OnDisk { x, y, .. }: OnDisk<V>) -> [V; 2] {
         [x, y]
     }
     #[inline(always)]
-    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
+    fn from_square<V: Simd>(square: [V::Int; 2], m: i32) -> OnDisk<V> {
         let [u, v] = square;
-        let mm = L::Int::splat(m) * L::Int::splat(m);
-        let scale = L::splat((1.0 / (m as f64 * m as f64)) as f32);
-        let [x, y] = scaled::<L>(square, m);
+        let mm = V::Int::splat(m) * V::Int::splat(m);
+        let scale = V::splat((1.0 / (m as f64 * m as f64)) as f32);
+        let [x, y] = scaled::<V>(square, m);
         let d = mm - u * u - v * v;
-        OnDisk { x, y, d: L::from_int(d) * scale, e: L::from_int(d + mm) * scale }
+        OnDisk { x, y, d: V::from_int(d) * scale, e: V::from_int(d + mm) * scale }
     }
 }
 
@@ -243,27 +243,27 @@ impl Stretch for Concentric {
     const WINDOW: [Span; 2] = [Span { before: 1, count: 4 }, Span { before: 2, count: 6 }];
 
     #[inline(always)]
-    fn to_square<L: Lane>(OnDisk { x, y, .. }: OnDisk<L>) -> [L; 2] {
+    fn to_square<V: Simd>(OnDisk { x, y, .. }: OnDisk<V>) -> [V; 2] {
         let steep = x.abs().lt(y.abs());
-        let (long, short) = (L::select(steep, y, x), L::select(steep, x, y));
-        let r = sqrt((x * x + y * y).greater(L::splat(1e-30)));
-        let along = r * L::splat(4.0) * atan2_half_turns(short, long.abs());
+        let (long, short) = (V::select(steep, y, x), V::select(steep, x, y));
+        let r = sqrt((x * x + y * y).greater(V::splat(1e-30)));
+        let along = r * V::splat(4.0) * atan2_half_turns(short, long.abs());
         let out = r.negate_where_negative(long);
-        [L::select(steep, along, out), L::select(steep, out, along)]
+        [V::select(steep, along, out), V::select(steep, out, along)]
     }
     #[inline(always)]
-    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
-        let [u, v] = scaled::<L>(square, m);
+    fn from_square<V: Simd>(square: [V::Int; 2], m: i32) -> OnDisk<V> {
+        let [u, v] = scaled::<V>(square, m);
         let steep = u.abs().lt(v.abs());
-        let (out, along) = (L::select(steep, v, u), L::select(steep, u, v));
-        let (sin, cos) = sin_cos_of_half(L::splat(0.5) * along / out);
+        let (out, along) = (V::select(steep, v, u), V::select(steep, u, v));
+        let (sin, cos) = sin_cos_of_half(V::splat(0.5) * along / out);
         let (long, short) = (out * cos, out * sin);
-        let d = one_minus_square::<L>(square[0].abs().max(square[1].abs()), m);
+        let d = one_minus_square::<V>(square[0].abs().max(square[1].abs()), m);
         OnDisk {
-            x: L::select(steep, short, long),
-            y: L::select(steep, long, short),
+            x: V::select(steep, short, long),
+            y: V::select(steep, long, short),
             d,
-            e: L::splat(1.0) + d,
+            e: V::splat(1.0) + d,
         }
     }
 }
@@ -277,39 +277,39 @@ impl Stretch for Ellipse {
     const SHEARED: bool = true;
 
     #[inline(always)]
-    fn to_square<L: Lane>(OnDisk { x, y, d, .. }: OnDisk<L>) -> [L; 2] {
+    fn to_square<V: Simd>(OnDisk { x, y, d, .. }: OnDisk<V>) -> [V; 2] {
         let skew = (x - y) * (x + y);
-        let q = sqrt((skew * skew + d * L::splat(4.0)).greater(L::zero()));
+        let q = sqrt((skew * skew + d * V::splat(4.0)).greater(V::zero()));
         let side = inlined(
             #[inline(always)]
-            |c: L, sum: L| (c + c) * inv_sqrt(sum),
+            |c: V, sum: V| (c + c) * inv_sqrt(sum),
         );
-        [side(x, L::splat(2.0) + skew + q), side(y, L::splat(2.0) - skew + q)]
+        [side(x, V::splat(2.0) + skew + q), side(y, V::splat(2.0) - skew + q)]
     }
     #[inline(always)]
-    fn from_square<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
-        Self::from_square_by(square, m, |_| L::splat(0.5))
+    fn from_square<V: Simd>(square: [V::Int; 2], m: i32) -> OnDisk<V> {
+        Self::from_square_by(square, m, |_| V::splat(0.5))
     }
     #[inline(always)]
-    fn from_square_by_root_e<L: Lane>(square: [L::Int; 2], m: i32) -> OnDisk<L> {
-        Self::from_square_by(square, m, |e| e * L::splat(0.5))
+    fn from_square_by_root_e<V: Simd>(square: [V::Int; 2], m: i32) -> OnDisk<V> {
+        Self::from_square_by(square, m, |e| e * V::splat(0.5))
     }
 }
 
 impl Ellipse {
     /// With x and y times the root of twice `factor` of e.
     #[inline(always)]
-    fn from_square_by<L: Lane>(square: [L::Int; 2], m: i32, factor: impl Fn(L) -> L) -> OnDisk<L> {
-        let one = L::splat(1.0);
-        let [du, dv] = square.each(|i| one_minus_square::<L>(i, m));
-        let [u, v] = scaled::<L>(square, m);
+    fn from_square_by<V: Simd>(square: [V::Int; 2], m: i32, factor: impl Fn(V) -> V) -> OnDisk<V> {
+        let one = V::splat(1.0);
+        let [du, dv] = square.each(|i| one_minus_square::<V>(i, m));
+        let [u, v] = scaled::<V>(square, m);
         let d = du * dv;
         let e = one + d;
         let factor = factor(e);
         // 1 - v^2 / 2 = (1 + (1 - v^2)) / 2.
         let side = inlined(
             #[inline(always)]
-            |c: L, other: L| c * sqrt((one + other) * factor),
+            |c: V, other: V| c * sqrt((one + other) * factor),
         );
         OnDisk { x: side(u, dv), y: side(v, du), d, e }
     }
@@ -317,18 +317,18 @@ impl Ellipse {
 
 /// A representable point: the column from 0 to m, the row from -m to m, and whether it is a lower
 /// one.
-struct Point<L: Lane> {
-    column: L::Int,
-    row: L::Int,
-    lower: L::Mask,
+struct Point<V: Simd> {
+    column: V::Int,
+    row: V::Int,
+    lower: V::Mask,
 }
 
-impl<L: Lane> Point<L> {
+impl<V: Simd> Point<V> {
     /// The nearest in range. Column 0 has no sign, so it is the upper hemisphere's.
     #[inline(always)]
-    fn clamped(column: L::Int, row: L::Int, lower: L::Mask, max: L::Int) -> Self {
-        let column = column.max(L::Int::splat(0)).min(max);
-        let lower = lower & L::Int::splat(0).lt(column);
+    fn clamped(column: V::Int, row: V::Int, lower: V::Mask, max: V::Int) -> Self {
+        let column = column.max(V::Int::splat(0)).min(max);
+        let lower = lower & V::Int::splat(0).lt(column);
         Point { column, row: row.max(-max).min(max), lower }
     }
 }
@@ -341,18 +341,18 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
     /// Column and row of a unit vector in the chart of its own hemisphere or, `past` the equator, in
     /// the other; and the same point of the disk.
     #[inline(always)]
-    fn params<L: Lane>([x, y, z]: [L; 3], past: bool, m: i32) -> ([L; 2], OnDisk<L>) {
+    fn params<V: Simd>([x, y, z]: [V; 3], past: bool, m: i32) -> ([V; 2], OnDisk<V>) {
         let z = if past { -z.abs() } else { z.abs() };
         let disk = P::to_disk([x, y, z], past);
         let [u, v] = S::to_square(disk);
-        let (max, half) = (L::splat(m as f32), L::splat(0.5 * m as f32));
+        let (max, half) = (V::splat(m as f32), V::splat(0.5 * m as f32));
         ([u * half + half, v * max], disk)
     }
 
     /// The canonical parameters.
     #[inline(always)]
-    fn snorms<L: Lane>(point: &Point<L>, m: i32) -> [L::Int; 2] {
-        let max = L::Int::splat(m);
+    fn snorms<V: Simd>(point: &Point<V>, m: i32) -> [V::Int; 2] {
+        let max = V::Int::splat(m);
         let (u, v) = (point.column + point.column - max, point.row);
         let (on_u, on_v) = (u.abs().eq(max), v.abs().eq(max));
         let equator = if S::CORNERS { (u * u + v * v).eq(max * max) } else { on_u | on_v };
@@ -361,44 +361,44 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
             #[inline(always)]
             |side| {
                 if S::CORNERS && P::POLE_IN_CORNERS {
-                    L::Int::select(on_u & on_v, max, side)
+                    V::Int::select(on_u & on_v, max, side)
                 } else {
                     side
                 }
             },
         );
         let column = pole(point.column);
-        [L::Int::select(upper, column, -column), pole(v)]
+        [V::Int::select(upper, column, -column), pole(v)]
     }
 
     /// Whether a point past the equator also stands in the chart of its own hemisphere; and the
     /// column and row there.
     #[inline(always)]
-    fn double<L: Lane>(point: &Point<L>, m: i32) -> (L::Mask, [L::Int; 2]) {
-        let max = L::Int::splat(m);
+    fn double<V: Simd>(point: &Point<V>, m: i32) -> (V::Mask, [V::Int; 2]) {
+        let max = V::Int::splat(m);
         let u = point.column + point.column - max;
-        let (is_double, [u, row]) = P::double::<L>([u, point.row], m);
+        let (is_double, [u, row]) = P::double::<V>([u, point.row], m);
         (is_double, [(u + max).sar(1), row])
     }
 
     /// The point in the chart of its own hemisphere, of one past the equator that also stands there
     /// or, in `f32`, has the very vector of one that does.
     #[inline(always)]
-    fn in_own_chart<L: Lane>(point: Point<L>, m: i32) -> Point<L> {
+    fn in_own_chart<V: Simd>(point: Point<V>, m: i32) -> Point<V> {
         let (is_double, double) = Self::double(&point, m);
         let v = Self::vector(&point, m);
         let place = Self::params(v, false, m).0.each(|p| p.round_int());
-        let near = Point::<L>::clamped(place[0], place[1], !point.lower, L::Int::splat(m));
+        let near = Point::<V>::clamped(place[0], place[1], !point.lower, V::Int::splat(m));
         let [x, y, z] = Self::vector(&near, m);
         let same = inlined(
             #[inline(always)]
-            |a: L, b: L| a.to_bits().eq(b.to_bits()),
+            |a: V, b: V| a.to_bits().eq(b.to_bits()),
         );
         let coincides = same(x, v[0]) & same(y, v[1]) & same(z, v[2]);
         let pick = inlined(
             #[inline(always)]
             |double, near, own| {
-                L::Int::select(is_double, double, L::Int::select(coincides, near, own))
+                V::Int::select(is_double, double, V::Int::select(coincides, near, own))
             },
         );
         let moves = is_double | coincides;
@@ -410,25 +410,25 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
     }
 
     #[inline(always)]
-    fn vector<L: Lane>(point: &Point<L>, m: i32) -> [L; 3] {
-        let u = point.column + point.column - L::Int::splat(m);
-        let [x, y, z] = P::from_square::<S, L>([u, point.row], m);
-        [x, y, L::select(point.lower, -z, z)]
+    fn vector<V: Simd>(point: &Point<V>, m: i32) -> [V; 3] {
+        let u = point.column + point.column - V::Int::splat(m);
+        let [x, y, z] = P::from_square::<S, V>([u, point.row], m);
+        [x, y, V::select(point.lower, -z, z)]
     }
 
     /// The parameters of the point nearest to a direction.
     #[inline(never)]
-    fn nearest<L: Lane>(v: [L; 3], m: i32) -> [L::Int; 2] {
-        L::compiled_for(
+    fn nearest<V: Simd>(v: [V; 3], m: i32) -> [V::Int; 2] {
+        V::compiled_for(
             #[inline(always)]
             || {
                 let v = unit(v);
-                let lower = v[2].lt(L::zero());
+                let lower = v[2].lt(V::zero());
                 let other = !lower;
-                let always = L::zero().le(L::zero());
+                let always = V::zero().le(V::zero());
                 let place = Self::params(v, false, m).0;
                 // What was decoded finds its own code at once.
-                let mut own = Search::<P, S, L>::to(v, m);
+                let mut own = Search::<P, S, V>::to(v, m);
                 own.consider(always, place.each(|p| p.round_int()), lower);
                 if S::CORNERS {
                     let past = Self::params(v, true, m).0;
@@ -437,7 +437,7 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
                 if own.closest.is_exact() {
                     return own.params();
                 }
-                let mut search = Search::<P, S, L>::to(v, m);
+                let mut search = Search::<P, S, V>::to(v, m);
                 search.window(always, place, lower);
                 if S::SHEARED {
                     search.diagonals(v, place, lower);
@@ -454,54 +454,54 @@ impl<P: Projection, S: Stretch> Chart<P, S> {
 /// v / |v|. What was decoded keeps its bits, and so finds its code again, however close the next
 /// point is.
 #[inline(always)]
-fn unit<L: Lane>(v: [L; 3]) -> [L; 3] {
+fn unit<V: Simd>(v: [V; 3]) -> [V; 3] {
     // The power of two that brings the length between 0.8 and 1.7.
     let square = length_squared(v);
-    let exponent = (square * L::splat(1.5)).to_bits().shr(23) - L::Int::splat(127);
-    let scale = L::from_bits((L::Int::splat(127) - exponent.sar(1)).shl(23));
-    let is_unit = (square * scale * scale - L::splat(1.0)).abs().lt(L::splat(1e-6));
-    let k = L::select(is_unit, scale, inv_sqrt(square));
+    let exponent = (square * V::splat(1.5)).to_bits().shr(23) - V::Int::splat(127);
+    let scale = V::from_bits((V::Int::splat(127) - exponent.sar(1)).shl(23));
+    let is_unit = (square * scale * scale - V::splat(1.0)).abs().lt(V::splat(1e-6));
+    let k = V::select(is_unit, scale, inv_sqrt(square));
     v.each(|c| c * k)
 }
 
 /// The nearest point so far.
-struct Search<P, S, L: Lane> {
-    closest: Closest<L>,
+struct Search<P, S, V: Simd> {
+    closest: Closest<V>,
     m: i32,
     chart: PhantomData<(P, S)>,
 }
 
-impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
+impl<P: Projection, S: Stretch, V: Simd> Search<P, S, V> {
     #[inline(always)]
-    fn to(v: [L; 3], m: i32) -> Self {
+    fn to(v: [V; 3], m: i32) -> Self {
         Search { closest: Closest::to_unit(v), m, chart: PhantomData }
     }
 
     /// The canonical parameters of the nearest.
     #[inline(always)]
-    fn params(self) -> [L::Int; 2] {
+    fn params(self) -> [V::Int; 2] {
         let code = self.closest.code();
         [code.sar(16), code.sign_extend(16)]
     }
 
     #[inline(always)]
-    fn consider(&mut self, counts: L::Mask, place: [L::Int; 2], lower: L::Mask) {
-        let point = Point::<L>::clamped(place[0], place[1], lower, L::Int::splat(self.m));
+    fn consider(&mut self, counts: V::Mask, place: [V::Int; 2], lower: V::Mask) {
+        let point = Point::<V>::clamped(place[0], place[1], lower, V::Int::splat(self.m));
         let double = Chart::<P, S>::double(&point, self.m).0;
         let counts = if S::CORNERS { counts & !double } else { counts };
-        let [column, row] = Chart::<P, S>::snorms::<L>(&point, self.m);
+        let [column, row] = Chart::<P, S>::snorms::<V>(&point, self.m);
         let code = column.shl(16) | row.low(16);
         self.closest.consider_where(counts, code, Chart::<P, S>::vector(&point, self.m));
     }
 
     /// Considers the points around a place.
     #[inline(always)]
-    fn window(&mut self, counts: L::Mask, place: [L; 2], lower: L::Mask) {
+    fn window(&mut self, counts: V::Mask, place: [V; 2], lower: V::Mask) {
         let first = [0, 1]
-            .each(|i: usize| place[i].floor().round_int() - L::Int::splat(S::WINDOW[i].before));
+            .each(|i: usize| place[i].floor().round_int() - V::Int::splat(S::WINDOW[i].before));
         for i in 0..S::WINDOW[0].count {
             for j in 0..S::WINDOW[1].count {
-                let place = [first[0] + L::Int::splat(i), first[1] + L::Int::splat(j)];
+                let place = [first[0] + V::Int::splat(i), first[1] + V::Int::splat(j)];
                 self.consider(counts, place, lower);
             }
         }
@@ -510,50 +510,50 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
     /// Considers the nearest point on each of the diagonals beside a place near a corner: along
     /// them, x and y hardly change.
     #[inline(always)]
-    fn diagonals(&mut self, v: [L; 3], place: [L; 2], lower: L::Mask) {
-        let max = L::splat(self.m as f32);
+    fn diagonals(&mut self, v: [V; 3], place: [V; 2], lower: V::Mask) {
+        let max = V::splat(self.m as f32);
         let u = place[0] + place[0] - max;
-        let near = (max * L::splat(0.75)).lt(u.abs().lesser(place[1].abs()));
+        let near = (max * V::splat(0.75)).lt(u.abs().lesser(place[1].abs()));
         if !near.any() {
             return;
         }
         let out = inlined(
             #[inline(always)]
-            |side: L| L::Int::select(side.lt(L::zero()), L::Int::splat(-1), L::Int::splat(1)),
+            |side: V| V::Int::select(side.lt(V::zero()), V::Int::splat(-1), V::Int::splat(1)),
         );
         // A column is two rows wide.
         let step = [out(u), out(place[1]) + out(place[1])];
         let [column, row] = place.each(|p| p.round_int());
-        let (zero, last) = (L::Int::splat(0), L::Int::splat(self.m));
+        let (zero, last) = (V::Int::splat(0), V::Int::splat(self.m));
         let m = self.m;
         let distance = inlined(
             #[inline(always)]
-            |[column, row]: [L::Int; 2]| {
+            |[column, row]: [V::Int; 2]| {
                 chord_squared(Chart::<P, S>::vector(&Point { column, row, lower }, m), v)
             },
         );
-        let first = row - L::Int::splat(3);
+        let first = row - V::Int::splat(3);
         for beside in 0..7 {
-            let row = first + L::Int::splat(beside);
+            let row = first + V::Int::splat(beside);
             // A diagonal that would begin outside the square begins where it leaves it.
-            let outside = (row.abs() - last + L::Int::splat(1)).sar(1).max(zero);
+            let outside = (row.abs() - last + V::Int::splat(1)).sar(1).max(zero);
             let mut at = [column.max(zero).min(last) - step[0] * outside, row - step[1] * outside];
             let mut least = distance(at);
             for length in [64, 32, 16, 8, 4, 2, 2, 1, 1] {
                 for length in [length, -length] {
-                    let length = L::Int::splat(length);
+                    let length = V::Int::splat(length);
                     let to = [at[0] + step[0] * length, at[1] + step[1] * length];
                     let exists = !to[0].lt(zero) & !last.lt(to[0]) & !last.lt(to[1].abs());
                     let there = distance(to);
                     let closer = exists & there.lt(least);
-                    at = [0, 1].each(|i: usize| L::Int::select(closer, to[i], at[i]));
-                    least = L::select(closer, there, least);
+                    at = [0, 1].each(|i: usize| V::Int::select(closer, to[i], at[i]));
+                    least = V::select(closer, there, least);
                 }
             }
             self.consider(near, at, lower);
             // Along a diagonal the distance has one minimum inside the square at most, and perhaps
             // another at the border.
-            let across = L::Int::select(step[0].lt(zero), at[0], last - at[0]);
+            let across = V::Int::select(step[0].lt(zero), at[0], last - at[0]);
             let room = across.min((last - at[1].abs()).sar(1));
             self.consider(near, [0, 1].each(|i: usize| at[i] + step[i] * room), lower);
         }
@@ -561,48 +561,48 @@ impl<P: Projection, S: Stretch, L: Lane> Search<P, S, L> {
 
     /// Considers the points outside the disk of the other hemisphere, which is the `lower` one.
     #[inline(always)]
-    fn outside(&mut self, v: [L; 3], lower: L::Mask) {
-        let edge = L::splat(self.m as f32);
+    fn outside(&mut self, v: [V; 3], lower: V::Mask) {
+        let edge = V::splat(self.m as f32);
         let ([column, row], OnDisk { d, e, .. }) = Chart::<P, S>::params(v, true, self.m);
         let u = column + column - edge;
-        let reachable = L::splat(-0.2).lt(e);
+        let reachable = V::splat(-0.2).lt(e);
         if !reachable.any() {
             return;
         }
-        let limit = edge + L::splat(4.0);
+        let limit = edge + V::splat(4.0);
         let beside = u.abs().le(limit) & row.abs().le(limit);
         self.window(beside, [column, row], lower);
         // Towards the corners cells grow long across the radius: follow the parallel of v from
         // column to column.
-        let max = L::Int::splat(self.m);
-        let scale = L::splat(1.0 / self.m as f32);
-        let rr = (L::splat(1.0) - d) * edge * edge;
-        let inside = sqrt((-d).greater(L::zero())) * edge;
+        let max = V::Int::splat(self.m);
+        let scale = V::splat(1.0 / self.m as f32);
+        let rr = (V::splat(1.0) - d) * edge * edge;
+        let inside = sqrt((-d).greater(V::zero())) * edge;
         let start = u.abs().greater(inside).lesser(edge).negate_where_negative(u);
-        let start = ((start + edge) * L::splat(0.5)).round_int();
+        let start = ((start + edge) * V::splat(0.5)).round_int();
         let mut open = reachable;
         let mut ends = [start; 2];
         while open.any() {
-            let mut any_open = L::zero().lt(L::zero());
+            let mut any_open = V::zero().lt(V::zero());
             for column in ends {
-                let exists = L::Int::splat(-1).lt(column) & column.lt(max + L::Int::splat(1));
-                let u = L::from_int(column + column - max);
-                let across = sqrt((rr - u * u).greater(L::zero())).negate_where_negative(row);
+                let exists = V::Int::splat(-1).lt(column) & column.lt(max + V::Int::splat(1));
+                let u = V::from_int(column + column - max);
+                let across = sqrt((rr - u * u).greater(V::zero())).negate_where_negative(row);
                 let [x, y, z] = P::from_disk(OnDisk { x: u * scale, y: across * scale, d, e });
-                let there = [x, y, L::select(lower, -z, z)];
+                let there = [x, y, V::select(lower, -z, z)];
                 let near =
-                    chord_squared(there, v).le(self.closest.distance_squared() * L::splat(4.0));
+                    chord_squared(there, v).le(self.closest.distance_squared() * V::splat(4.0));
                 let counts = open & exists & near;
                 any_open = any_open | counts;
                 if counts.any() {
-                    let first = across.floor().round_int() - L::Int::splat(1);
+                    let first = across.floor().round_int() - V::Int::splat(1);
                     for j in 0..4 {
-                        self.consider(counts, [column, first + L::Int::splat(j)], lower);
+                        self.consider(counts, [column, first + V::Int::splat(j)], lower);
                     }
                 }
             }
             open = open & any_open;
-            ends = [ends[0] + L::Int::splat(1), ends[1] - L::Int::splat(1)];
+            ends = [ends[0] + V::Int::splat(1), ends[1] - V::Int::splat(1)];
         }
     }
 }
@@ -611,15 +611,15 @@ impl<P: Projection, S: Stretch, const BITS: u32> Disk<P, S, BITS> {
     const M: i32 = snorm_max(BITS / 2);
 
     #[inline(always)]
-    fn point<L: Lane>(code: L::Int) -> Point<L> {
-        let [column, row] = unpack_snorm2::<BITS, L>(code);
-        Point { column: column.abs(), row, lower: column.lt(L::Int::splat(0)) }
+    fn point<V: Simd>(code: V::Int) -> Point<V> {
+        let [column, row] = unpack_snorm2::<BITS, V>(code);
+        Point { column: column.abs(), row, lower: column.lt(V::Int::splat(0)) }
     }
 
     #[inline(always)]
-    fn canonical_of<L: Lane>(point: Point<L>) -> L::Int {
+    fn canonical_of<V: Simd>(point: Point<V>) -> V::Int {
         let point = if S::CORNERS { Chart::<P, S>::in_own_chart(point, Self::M) } else { point };
-        pack_snorm2::<BITS, L>(Chart::<P, S>::snorms(&point, Self::M))
+        pack_snorm2::<BITS, V>(Chart::<P, S>::snorms(&point, Self::M))
     }
 }
 
@@ -627,40 +627,40 @@ impl<P: Projection, S: Stretch, const BITS: u32> Formula for Disk<P, S, BITS> {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
-        let lower = v[2].lt(L::zero());
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
+        let lower = v[2].lt(V::zero());
         let ([column, row], _) = Chart::<P, S>::params(normalize(v), false, Self::M);
-        let max = L::Int::splat(Self::M);
-        let point = Point::<L>::clamped(column.round_int(), row.round_int(), lower, max);
-        pack_snorm2::<BITS, L>(Chart::<P, S>::snorms(&point, Self::M))
+        let max = V::Int::splat(Self::M);
+        let point = Point::<V>::clamped(column.round_int(), row.round_int(), lower, max);
+        pack_snorm2::<BITS, V>(Chart::<P, S>::snorms(&point, Self::M))
     }
 
     #[inline(always)]
-    fn encode_precise<L: Lane>(v: [L; 3]) -> L::Int {
-        pack_snorm2::<BITS, L>(Chart::<P, S>::nearest(v, Self::M))
+    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
+        pack_snorm2::<BITS, V>(Chart::<P, S>::nearest(v, Self::M))
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
-        Chart::<P, S>::vector(&Self::point::<L>(code), Self::M)
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
+        Chart::<P, S>::vector(&Self::point::<V>(code), Self::M)
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
-        Self::canonical_of(Self::point::<L>(code))
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
+        Self::canonical_of(Self::point::<V>(code))
     }
 
     #[inline(always)]
-    fn mirror<L: Lane>(code: L::Int, flips: [bool; 3]) -> L::Int {
-        let (max, zero) = (L::Int::splat(Self::M), L::Int::splat(0));
-        let Point { column, row, lower } = Self::point::<L>(code);
+    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+        let (max, zero) = (V::Int::splat(Self::M), V::Int::splat(0));
+        let Point { column, row, lower } = Self::point::<V>(code);
         let column = if flips[0] { max - column } else { column };
         let row = negate_if(row, flips[1]);
-        let lower = not_if::<L>(lower, flips[2]);
+        let lower = not_if::<V>(lower, flips[2]);
         // Column 0 is the upper hemisphere's alone. Of the lower one's, what is on the equator is upper too, and what
         // is outside the disk is missing.
         let no_column = lower & column.eq(zero);
-        let mirrored = Self::canonical_of::<L>(Point { column, row, lower: lower & !no_column });
+        let mirrored = Self::canonical_of::<V>(Point { column, row, lower: lower & !no_column });
         if !S::CORNERS {
             return mirrored;
         }
@@ -668,7 +668,7 @@ impl<P: Projection, S: Stretch, const BITS: u32> Formula for Disk<P, S, BITS> {
         if !missing.any() {
             return mirrored;
         }
-        L::Int::select(missing, mirror_decoded::<Self, L>(code, flips), mirrored)
+        V::Int::select(missing, mirror_decoded::<Self, V>(code, flips), mirrored)
     }
 }
 
@@ -677,12 +677,12 @@ impl<P: Projection, S: Stretch, const BITS: u32> Symmetric for Disk<P, S, BITS> 
     const ENTRIES: usize = (Self::M as usize).div_ceil(2) * (Self::M as usize + 1);
 
     #[inline(always)]
-    fn fold<L: Lane>(code: L::Int) -> (L::Int, [L::Mask; 3]) {
-        let (max, zero) = (L::Int::splat(Self::M), L::Int::splat(0));
-        let [column, row] = unpack_snorm2::<BITS, L>(code);
+    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
+        let (max, zero) = (V::Int::splat(Self::M), V::Int::splat(0));
+        let [column, row] = unpack_snorm2::<BITS, V>(code);
         let magnitude = column.abs();
         let u = magnitude + magnitude - max;
-        let index = u.abs().shr(1) * (max + L::Int::splat(1)) + row.abs();
+        let index = u.abs().shr(1) * (max + V::Int::splat(1)) + row.abs();
         (index, [u.lt(zero), row.lt(zero), column.lt(zero)])
     }
 }

@@ -18,11 +18,11 @@
 //! floating point; the integers are unitpack's.
 
 use crate::batch::{Decoder, Soa, SoaMut, decode_all};
-use crate::dispatch::{Job, dispatch};
 use crate::error::LengthMismatch;
 use crate::formula::{Closest, Formula, One, direction};
-use crate::lane::{Each, Lane, LaneInt, inlined};
-use crate::math::{atan2_half_turns, normalize, sin_cos_quarter_turns, sqrt};
+use crate::simd::dispatch::{Job, dispatch};
+use crate::simd::math::{atan2_half_turns, normalize, sin_cos_quarter_turns, sqrt};
+use crate::simd::{Each, Simd, SimdInt, inlined};
 
 /// 2^`BITS` points.
 pub(crate) struct Fibonacci<const BITS: u32>;
@@ -101,24 +101,24 @@ impl SphericalFibonacci {
     }
 
     #[inline(always)]
-    fn encode_block<L: Lane>(
+    fn encode_block<V: Simd>(
         self,
-        x: &L::Block<f32>,
-        y: &L::Block<f32>,
-        z: &L::Block<f32>,
-        indices: &mut L::Block<u32>,
+        x: &V::Block<f32>,
+        y: &V::Block<f32>,
+        z: &V::Block<f32>,
+        indices: &mut V::Block<u32>,
     ) {
-        let v = direction([L::load(x), L::load(y), L::load(z)]);
-        L::store_int(nearest(v, self.n), indices, |index, i| *index = i);
+        let v = direction([V::load(x), V::load(y), V::load(z)]);
+        V::store_int(nearest(v, self.n), indices, |index, i| *index = i);
     }
 }
 
 impl Decoder<u32> for SphericalFibonacci {
     #[inline(always)]
-    fn decode<L: Lane>(&self, indices: &L::Block<u32>) -> [L; 3] {
-        let index = L::load_int(indices, |i| i);
-        let last = L::Int::splat(self.n - 1);
-        point(L::Int::select(last.below(index), last, index), self.n)
+    fn decode<V: Simd>(&self, indices: &V::Block<u32>) -> [V; 3] {
+        let index = V::load_int(indices, |i| i);
+        let last = V::Int::splat(self.n - 1);
+        point(V::Int::select(last.below(index), last, index), self.n)
     }
 }
 
@@ -130,12 +130,12 @@ struct EncodePoints<'a> {
 
 impl Job for EncodePoints<'_> {
     #[inline(always)]
-    fn run<L: Lane>(self) -> Self {
+    fn run<V: Simd>(self) -> Self {
         let EncodePoints { points, v: Soa { x, y, z }, indices } = self;
-        let ((xs, x), (ys, y), (zs, z)) = (L::split(x), L::split(y), L::split(z));
-        let (blocks, indices) = L::split_mut(indices);
+        let ((xs, x), (ys, y), (zs, z)) = (V::split(x), V::split(y), V::split(z));
+        let (blocks, indices) = V::split_mut(indices);
         for (((x, y), z), indices) in xs.iter().zip(ys).zip(zs).zip(blocks) {
-            points.encode_block::<L>(x, y, z, indices);
+            points.encode_block::<V>(x, y, z, indices);
         }
         EncodePoints { points, v: Soa { x, y, z }, indices }
     }
@@ -158,55 +158,55 @@ const NUMBERS: [u32; 20] = {
 
 /// Point `i`, from 0 to n - 1.
 #[inline(always)]
-fn point<L: Lane>(i: L::Int, n: i32) -> [L; 3] {
-    let per_n = L::splat(1.0 / n as f32);
+fn point<V: Simd>(i: V::Int, n: i32) -> [V; 3] {
+    let per_n = V::splat(1.0 / n as f32);
     // 1 - z and 1 + z.
-    let odd = i + i + L::Int::splat(1);
+    let odd = i + i + V::Int::splat(1);
     let (above, below) =
-        (L::from_int(odd) * per_n, L::from_int(L::Int::splat(2) * L::Int::splat(n) - odd) * per_n);
-    let z = L::from_int(L::Int::splat(n) - odd) * per_n;
+        (V::from_int(odd) * per_n, V::from_int(V::Int::splat(2) * V::Int::splat(n) - odd) * per_n);
+    let z = V::from_int(V::Int::splat(n) - odd) * per_n;
     let r = sqrt(above * below);
-    let quarter_turns = L::from_int(i * L::Int::splat(G)) * L::splat(1.0 / (1 << 30) as f32);
+    let quarter_turns = V::from_int(i * V::Int::splat(G)) * V::splat(1.0 / (1 << 30) as f32);
     let (sin, cos) = sin_cos_quarter_turns(quarter_turns);
     normalize([r * cos, r * sin, z])
 }
 
 /// The point nearest to `v`, of n.
 #[inline(always)]
-fn nearest<L: Lane>(v: [L; 3], n: i32) -> L::Int {
-    let one = L::Int::splat(1);
-    let last = L::Int::splat(n - 1);
+fn nearest<V: Simd>(v: [V; 3], n: i32) -> V::Int {
+    let one = V::Int::splat(1);
+    let last = V::Int::splat(n - 1);
     let [x, y, z] = normalize(v);
     let rr = x * x + y * y;
     // How many points are nearer to the pole of the own hemisphere, from its side, where 1 - |z| is exact.
-    let height = L::splat(0.5 * n as f32) * rr / (L::splat(1.0) + z.abs()) - L::splat(0.5);
+    let height = V::splat(0.5 * n as f32) * rr / (V::splat(1.0) + z.abs()) - V::splat(0.5);
     let whole = height.round_int_wide();
-    let rest = height - L::from_int(whole);
-    let lower = z.lt(L::zero());
-    let start = L::Int::select(lower, last - whole, whole);
-    let rest = L::select(lower, -rest, rest);
+    let rest = height - V::from_int(whole);
+    let lower = z.lt(V::zero());
+    let start = V::Int::select(lower, last - whole, whole);
+    let rest = V::select(lower, -rest, rest);
     // The turn from there to v, as a fraction of 2^32.
-    let azimuth = (atan2_half_turns(y, x) * L::splat((1 << 24) as f32)).round_int_wide().shl(7);
-    let turn = azimuth - start * L::Int::splat(G);
+    let azimuth = (atan2_half_turns(y, x) * V::splat((1 << 24) as f32)).round_int_wide().shl(7);
+    let turn = azimuth - start * V::Int::splat(G);
     // The squarest cells at about N pi sqrt(5) r^2 = golden ratio^(2 k).
-    let square = (L::splat((core::f64::consts::PI * 2.236_067_977 * n as f64) as f32) * rr)
-        .greater(L::splat(1.0));
+    let square = (V::splat((core::f64::consts::PI * 2.236_067_977 * n as f64) as f32) * rr)
+        .greater(V::splat(1.0));
     let log2 =
-        L::from_int(square.to_bits() - L::Int::splat(127 << 23)) * L::splat(1.0 / (1 << 23) as f32);
-    let k = (log2 * L::splat(0.720_21)).floor().round_int().max(L::Int::splat(2));
-    let number = L::gather(&NUMBERS, k - L::Int::splat(2));
-    let next = (L::from_int(number) * L::splat(1.618_034)).round_int();
+        V::from_int(square.to_bits() - V::Int::splat(127 << 23)) * V::splat(1.0 / (1 << 23) as f32);
+    let k = (log2 * V::splat(0.720_21)).floor().round_int().max(V::Int::splat(2));
+    let number = V::gather(&NUMBERS, k - V::Int::splat(2));
+    let next = (V::from_int(number) * V::splat(1.618_034)).round_int();
     let turned = inlined(
         #[inline(always)]
-        |i: L::Int| L::from_int(i) * L::splat(1.0 / 65536.0 / 65536.0),
+        |i: V::Int| V::from_int(i) * V::splat(1.0 / 65536.0 / 65536.0),
     );
     let [by_number, by_next] = [number, next].each(
         #[inline(always)]
-        |f| turned(f * L::Int::splat(G)),
+        |f| turned(f * V::Int::splat(G)),
     );
     let turn = turned(turn);
-    let a = turn * L::from_int(next) - rest * by_next;
-    let b = rest * by_number - turn * L::from_int(number);
+    let a = turn * V::from_int(next) - rest * by_next;
+    let b = rest * by_number - turn * V::from_int(number);
     let [a, b] = [a, b].each(
         #[inline(always)]
         |c| c.negate_where_negative(by_number).floor().round_int(),
@@ -215,11 +215,11 @@ fn nearest<L: Lane>(v: [L; 3], n: i32) -> L::Int {
     let mut closest = Closest::to_unit([x, y, z]);
     for s in [0, 1] {
         for t in [0, 1] {
-            let i = corner + L::Int::splat(s) * number + L::Int::splat(t) * next;
+            let i = corner + V::Int::splat(s) * number + V::Int::splat(t) * next;
             // Beyond a pole, back.
-            let i = L::Int::select(i.lt(L::Int::splat(0)), -one - i, i);
-            let i = L::Int::select(last.lt(i), last + last + one - i, i);
-            let i = i.max(L::Int::splat(0)).min(last);
+            let i = V::Int::select(i.lt(V::Int::splat(0)), -one - i, i);
+            let i = V::Int::select(last.lt(i), last + last + one - i, i);
+            let i = i.max(V::Int::splat(0)).min(last);
             closest.consider(i, point(i, n));
         }
     }
@@ -230,17 +230,17 @@ impl<const BITS: u32> Formula for Fibonacci<BITS> {
     type Words = One;
 
     #[inline(always)]
-    fn encode<L: Lane>(v: [L; 3]) -> L::Int {
+    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
         nearest(v, 1 << BITS)
     }
 
     #[inline(always)]
-    fn decode<L: Lane>(code: L::Int) -> [L; 3] {
+    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
         point(code.low(BITS), 1 << BITS)
     }
 
     #[inline(always)]
-    fn canonical<L: Lane>(code: L::Int) -> L::Int {
+    fn canonical<V: Simd>(code: V::Int) -> V::Int {
         code.low(BITS)
     }
 }
