@@ -13,7 +13,7 @@ fn main() {
     fs::write(Path::new(&out).join("best_fit.bin"), best_fit()).expect("OUT_DIR is writable");
 }
 
-/// CrytekBFN24's lengths: see src/codec/cartesian.rs.
+/// CrytekBFN24's lengths: see src/formula/cartesian.rs.
 fn best_fit() -> Vec<u8> {
     let mut table = Vec::with_capacity(512 * 512);
     for j in 0..512 {
@@ -99,7 +99,7 @@ fn latlong_bands() -> String {
         assert!(begin <= 1 << bits, "latlong{bits}D has {begin} points");
         writeln!(
             code,
-            "impl Table for Spaced<{bits}> {{\n    const BEGINS: &'static [u32] = {{ static TABLE: [u32; {}] = {begins:?}; &TABLE }};\n}}",
+            "const BEGINS_{bits}: &[u32] = {{ static TABLE: [u32; {}] = {begins:?}; &TABLE }};",
             begins.len()
         )
         .expect("a String can be written to");

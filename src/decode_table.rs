@@ -35,12 +35,29 @@
 
 use core::marker::PhantomData;
 
-use bytemuck::Zeroable;
-
-use crate::batch::{self, Decoder, STAGE};
-use crate::formula::{Behind, One, Stored, Symmetric};
-use crate::simd::{Each, Simd, SimdMask, look_up3};
-use crate::*;
+use crate::batch::layout::{self, Codes, PART, VectorsMut};
+use crate::batch::storage::{CodeBytes, Word, from_native};
+use crate::batch::{Kernel, run};
+use crate::codec::{Codec, Format, codec_table};
+use crate::error::LengthMismatch;
+use crate::formula::Symmetric;
+#[cfg(feature = "cartesian")]
+use crate::formula::cartesian::SnormXyz;
+#[cfg(feature = "polyhedral")]
+use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
+#[cfg(feature = "disk")]
+use crate::formula::disk::{Concentric, Disk, Ellipse, EqArea, EqDist, Stereo, Unstretched};
+#[cfg(feature = "cartesian")]
+use crate::formula::xy_only::{XyOnly, XyUnorm};
+#[cfg(feature = "octahedral")]
+use crate::formula::{
+    hemi_oct::HemiOct,
+    oct::{Central, EqualArea, Oct, Warped},
+    octant::Octant,
+};
+use crate::simd::stream::Fence;
+use crate::simd::{I32x1, Simd, Vec3, look_up3};
+use crate::vector::SoaMut;
 
 /// Every decoded vector of the codec `C`, which has at most 16 bits.
 ///
@@ -70,7 +87,7 @@ impl<'a, C: Codec> DecodeTable<'a, C> {
     /// [`LengthMismatch`] if it has not; nothing is written then.
     pub fn fill(vectors: &'a mut [[f32; 3]]) -> Result<Self, LengthMismatch> {
         LengthMismatch::check_table(vectors.len(), Some(Self::LEN))?;
-        fill::<C>(vectors);
+        fill(&C::decode_batch, size_of::<C::Code>(), vectors);
         Ok(DecodeTable { vectors, codec: PhantomData })
     }
 
@@ -125,7 +142,8 @@ impl<'a> FormatTable<'a> {
     /// then.
     pub fn fill(format: Format, vectors: &'a mut [[f32; 3]]) -> Result<Self, LengthMismatch> {
         LengthMismatch::check_table(vectors.len(), Self::len_for(format))?;
-        format.visit(Fill(vectors));
+        let decode = |codes: Codes<'_>, v: VectorsMut<'_, 3>| format.kernels().decode(codes, v);
+        fill(&decode, format.code_size(), vectors);
         Ok(FormatTable { vectors, format })
     }
 
@@ -185,13 +203,7 @@ impl<'a, C: SignSymmetric> OctantTable<'a, C> {
     /// [`LengthMismatch`] if it has not; nothing is written then.
     pub fn fill(vectors: &'a mut [[f32; 3]]) -> Result<Self, LengthMismatch> {
         LengthMismatch::check_table(vectors.len(), Some(Self::LEN))?;
-        // The codes of the octant itself.
-        for i in 0..1 << C::FORMAT.bits() {
-            let code = from_index::<C>(i);
-            if let Some(v) = C::place(code).and_then(|place| vectors.get_mut(place)) {
-                *v = C::decode(code);
-            }
-        }
+        C::fill(vectors);
         Ok(OctantTable { vectors, codec: PhantomData })
     }
 
@@ -207,7 +219,9 @@ impl<'a, C: SignSymmetric> OctantTable<'a, C> {
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
     #[inline]
     pub fn decode_soa(&self, codes: &[C::Code], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
-        C::look_up_soa(self.vectors, codes, v)
+        LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+        C::look_up_batch(self.vectors, Codes::native(codes), v.into());
+        Ok(())
     }
 
     /// [`decode`](Self::decode) for arrays of structures of `N` floats. The first three become x, y
@@ -215,12 +229,15 @@ impl<'a, C: SignSymmetric> OctantTable<'a, C> {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
     pub fn decode_aos<const N: usize>(
         &self,
         codes: &[C::Code],
         v: &mut [[f32; N]],
     ) -> Result<(), LengthMismatch> {
-        look_up_aos(codes, v, |code| self.decode(code))
+        LengthMismatch::check_aos(v.len(), codes.len())?;
+        C::look_up_batch(self.vectors, Codes::native(codes), VectorsMut::rows(v));
+        Ok(())
     }
 }
 
@@ -228,134 +245,165 @@ impl<'a, C: SignSymmetric> OctantTable<'a, C> {
 /// and every change of signs there is a code of the mirrored vector. A hemisphere's is so in its
 /// four.
 ///
-/// Of the formats of at most 16 bits, spherical16 is so only up to rounding; latlong16, latlong16D,
-/// phi-z-unorm8x2, oct-unorm8x2, frontoct16, quadfrontoct16 and fibonacci16 have other points in other octants; icosphere162 is decoded by a
-/// table already.
-pub trait SignSymmetric: Codec + sealed::Sealed {
-    /// How many points the codec has in one octant.
+/// The others are so only up to rounding, as spherical16, or have other points in other octants;
+/// icosphere162 is decoded by a table already.
+pub trait SignSymmetric: Codec {
+    /// Number of points that the codec has in one octant.
     const ENTRIES: usize;
 
-    /// Where a code of the octant itself stands in its table.
+    /// Writes the vectors of an octant.
     #[doc(hidden)]
-    fn place(code: Self::Code) -> Option<usize>;
+    fn fill(octant: &mut [[f32; 3]]);
     #[doc(hidden)]
     fn look_up(octant: &[[f32; 3]], code: Self::Code) -> [f32; 3];
     #[doc(hidden)]
-    fn look_up_soa(
-        octant: &[[f32; 3]],
-        codes: &[Self::Code],
-        v: SoaMut<'_>,
-    ) -> Result<(), LengthMismatch>;
+    fn look_up_batch(octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>);
 }
 
-mod sealed {
-    pub trait Sealed {}
+/// A code's vector, from a table of its octant.
+struct Mirrored<'t, F>(F, &'t [[f32; 3]]);
+
+impl<F: Symmetric> Mirrored<'_, F> {
+    #[inline(always)]
+    fn decode<V: Simd>(&self, code: V::Int) -> Vec3<V> {
+        let (index, flips) = self.0.octant_index::<V>(code);
+        let Vec3 { x, y, z } = Vec3::from(V::gather3(self.1, index));
+        Vec3::new(V::select(flips.x, -x, x), V::select(flips.y, -y, y), V::select(flips.z, -z, z))
+    }
 }
 
+impl<'a, F: Symmetric, B: CodeBytes<Shape = Word>> Kernel<'a, &[B], [&'a mut [f32]; 3]>
+    for Mirrored<'_, F>
+{
+    // Most of the time goes into loads of single elements.
+    const USE_AVX512: bool = false;
+
+    #[inline(always)]
+    fn run<V: Simd>(&self, code: V::Int) -> [V; 3] {
+        self.decode::<V>(code).to_array()
+    }
+}
+
+/// Tables of a formula, compiled here: see [`Kernels`].
+pub(crate) trait OctantKernels {
+    /// Writes the vectors of an octant, those of all codes of `bits` bits of which nothing is negated.
+    fn fill(&self, bits: u32, octant: &mut [[f32; 3]]);
+    /// Decodes by a table.
+    fn look_up(&self, octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>);
+}
+
+macro_rules! octant_kernels {
+    ($($formula:ty),* $(,)?) => { $(
+        impl OctantKernels for $formula {
+            #[inline(never)]
+            fn fill(&self, bits: u32, octant: &mut [[f32; 3]]) {
+                fill_octant(*self, bits, octant);
+            }
+            #[inline(never)]
+            fn look_up(&self, octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
+                let formula = *self;
+                let kernel = layout::decode_kernel(|codes: &[u8], v, fence: &Fence<'_>| {
+                    run(Mirrored(formula, octant), codes.as_chunks::<4>().0, v, fence);
+                });
+                layout::decode(&kernel, 4, codes, vectors);
+            }
+        }
+    )* };
+}
+
+#[cfg(feature = "octahedral")]
+octant_kernels!(Oct<Central>, Oct<Warped>, Oct<EqualArea>, HemiOct, Octant);
+#[cfg(feature = "cartesian")]
+octant_kernels!(SnormXyz, XyOnly<XyUnorm>);
+#[cfg(feature = "disk")]
+octant_kernels!(
+    Disk<Stereo, Unstretched>,
+    Disk<Stereo, Concentric>,
+    Disk<Stereo, Ellipse>,
+    Disk<EqArea, Unstretched>,
+    Disk<EqArea, Concentric>,
+    Disk<EqArea, Ellipse>,
+    Disk<EqDist, Unstretched>,
+    Disk<EqDist, Concentric>,
+    Disk<EqDist, Ellipse>,
+);
+#[cfg(feature = "polyhedral")]
+octant_kernels!(Cube<Linear>, Cube<WarpedFace>, AngularCube);
+
+#[inline(always)]
+fn fill_octant<F: Symmetric>(formula: F, bits: u32, octant: &mut [[f32; 3]]) {
+    for code in 0..1 << bits {
+        let (index, Vec3 { x, y, z }) = formula.octant_index::<f32>(I32x1(code));
+        let is_negated = x | y | z;
+        if let Some(v) = octant.get_mut(index.0 as u32 as usize)
+            && !is_negated
+        {
+            *v = formula.decode::<f32>(I32x1(code)).to_array();
+        }
+    }
+}
+
+/// Implements the trait for the rows with the flag `octant`.
 macro_rules! sign_symmetric {
-    ($($codec:ident)*) => {$(
-        impl sealed::Sealed for $codec {}
-
-        impl SignSymmetric for $codec {
+    ($(
+        #[$gate:meta]
+        $family:literal {$(
+            $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
+                exact $axes:tt $(/ $axes_precise:tt)?,
+                $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
+        )*}
+    )*) => {$($(
+        #[$gate]
+        sign_symmetric!(
+            @row $name, $code, $bits, $formula $(::<$($kind),+>)? :: $new($($value),*); $($flag)*
+        );
+    )*)*};
+    (@row $name:ident, $code:ty, $bits:literal, $value:expr; octant $($rest:ident)*) => {
+        impl SignSymmetric for crate::codec::$name {
             const ENTRIES: usize = {
-                assert!($codec::FORMAT.bits() <= 16);
-                <<$codec as Behind>::Formula as Symmetric>::ENTRIES
+                assert!($bits <= 16);
+                $value.points_per_octant()
             };
 
-            fn place(code: Self::Code) -> Option<usize> {
-                place::<<$codec as Behind>::Formula, _>(code)
+            #[inline]
+            fn fill(octant: &mut [[f32; 3]]) {
+                const { $value }.fill($bits, octant);
             }
             #[inline]
-            fn look_up(octant: &[[f32; 3]], code: Self::Code) -> [f32; 3] {
-                Mirrored::<<$codec as Behind>::Formula>::new(octant).decode::<f32>(&[code])
+            fn look_up(octant: &[[f32; 3]], code: $code) -> [f32; 3] {
+                let code = from_native::<[u8; size_of::<$code>()], $code>(code);
+                Mirrored(const { $value }, octant).decode::<f32>(code).to_array()
             }
             #[inline]
-            fn look_up_soa(
-                octant: &[[f32; 3]],
-                codes: &[Self::Code],
-                v: SoaMut<'_>,
-            ) -> Result<(), LengthMismatch> {
-                batch::decode_all(&Mirrored::<<$codec as Behind>::Formula>::new(octant), codes, v)
+            fn look_up_batch(octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
+                const { $value }.look_up(octant, codes, vectors);
             }
         }
-    )*};
+    };
+    (@row $name:ident, $code:ty, $bits:literal, $value:expr; $flag:ident $($rest:ident)*) => {
+        sign_symmetric!(@row $name, $code, $bits, $value; $($rest)*);
+    };
+    (@row $name:ident, $code:ty, $bits:literal, $value:expr;) => {};
 }
 
-sign_symmetric! {
-    Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
-    Stereo16 StereoConcentric16 StereoEllipse16
-    EqArea16 EqAreaConcentric16 EqAreaEllipse16
-    EqDist16 EqDistConcentric16 EqDistEllipse16
-    Cube16 WarpedCube16
-    AngularCube4 AngularCube5 AngularCube6 AngularCube7 AngularCube8 AngularCube9 AngularCube10
-    AngularCube11 AngularCube12 AngularCube13 AngularCube14 AngularCube15 AngularCube16
-}
+codec_table!(sign_symmetric);
 
-/// An octant's table and the formula that it is of.
-struct Mirrored<'a, F> {
-    octant: &'a [[f32; 3]],
-    formula: PhantomData<F>,
-}
-
-impl<'a, F> Mirrored<'a, F> {
-    #[inline(always)]
-    fn new(octant: &'a [[f32; 3]]) -> Self {
-        Mirrored { octant, formula: PhantomData }
-    }
-}
-
-impl<F: Symmetric, C: Stored<One>> Decoder<C> for Mirrored<'_, F> {
-    #[inline(always)]
-    fn decode<V: Simd>(&self, codes: &V::Block<C>) -> [V; 3] {
-        let (index, flips) = F::fold::<V>(C::load::<V>(codes));
-        let v = V::gather3(self.octant, index);
-        [0, 1, 2].each(|i: usize| V::select(flips[i], -v[i], v[i]))
-    }
-}
-
-#[inline]
-fn place<F: Symmetric, C: Stored<One>>(code: C) -> Option<usize> {
-    let (index, [x, y, z]) = F::fold::<f32>(C::load::<f32>(&[code]));
-    if (x | y | z).any() { None } else { Some(index.0 as u32 as usize) }
-}
-
-struct Fill<'a>(&'a mut [[f32; 3]]);
-
-impl Visitor for Fill<'_> {
-    type Output = ();
-    #[inline]
-    fn visit<C: Codec>(self) {
-        fill::<C>(self.0);
-    }
-}
-
-/// Decodes the codes from 0.
-fn fill<C: Codec>(vectors: &mut [[f32; 3]]) {
-    let mut codes = [C::Code::zeroed(); STAGE];
-    let mut next = 0;
-    for vectors in vectors.chunks_mut(STAGE) {
-        for code in &mut codes {
-            *code = from_index::<C>(next);
+/// Decodes the codes from 0 on, which have one or two bytes.
+#[inline(never)]
+fn fill(decode: &dyn Fn(Codes<'_>, VectorsMut<'_, 3>), code_size: usize, vectors: &mut [[f32; 3]]) {
+    let mut bytes = [0; 2 * PART];
+    let mut next = 0u32;
+    for vectors in vectors.chunks_mut(PART) {
+        for code in bytes.chunks_mut(code_size.max(1)).take(vectors.len()) {
+            for (to, from) in code.iter_mut().zip(next.to_le_bytes()) {
+                *to = from;
+            }
             next += 1;
         }
-        let codes = &codes[..vectors.len().min(STAGE)];
-        // They are equally long.
-        let _ = C::decode_aos(codes, vectors);
+        if let Some(bytes) = bytes.get(..vectors.len() * code_size) {
+            decode(Codes::little_endian(bytes, code_size), VectorsMut::rows(vectors));
+        }
     }
-}
-
-/// The code whose integer is `index`, which is below 2^16.
-#[inline]
-fn from_index<C: Codec>(index: u32) -> C::Code {
-    let mut code = C::Code::zeroed();
-    let bytes = bytemuck::bytes_of_mut(&mut code);
-    let [low, high, ..] = index.to_le_bytes();
-    match bytes {
-        [byte] => *byte = low,
-        [first, second] => [*first, *second] = u16::from_le_bytes([low, high]).to_ne_bytes(),
-        _ => {}
-    }
-    code
 }
 
 /// The integer that a code of one or two bytes is.

@@ -44,18 +44,20 @@
 //! unitpack's answer. Sources: Schuchman, "Dither Signals and Their Effect on Quantization Noise", 1964, on subtracting
 //! it; Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
 
-use core::array;
-use core::marker::PhantomData;
-use core::num::Wrapping;
-
-use bytemuck::Zeroable;
-
-use crate::batch::{STAGE, Stage};
-use crate::formula::{Behind, Lattice, One, Stored, direction};
-use crate::simd::dispatch::{Job, dispatch};
-use crate::simd::math::{length_squared, normalize};
-use crate::simd::{Each, Simd, SimdInt, inlined};
-use crate::*;
+use crate::batch::columns::Indices;
+use crate::batch::layout::{
+    self, Codes, CodesMut, PART, Vectors, VectorsMut, columns, columns_mut,
+};
+use crate::batch::storage::{CodeBytes, Word, to_native};
+use crate::batch::{Kernel, map};
+use crate::codec::{Codec, Format, codec_table};
+use crate::error::LengthMismatch;
+use crate::formula::Lattice;
+#[cfg(feature = "octahedral")]
+use crate::formula::oct::{Central, Oct};
+use crate::formula::support::sanitize::sanitize;
+use crate::simd::{I32x1, Simd, SimdInt, Vec3, map3};
+use crate::vector::{Soa, SoaMut};
 
 /// A sequence of small rotations and of random numbers, one of each for every element. See the
 /// [module](self).
@@ -75,19 +77,19 @@ impl Dither {
     /// [`Float32x3`] too, what is no direction is taken as +Z.
     #[inline]
     pub fn encode<C: Codec>(self, index: u32, v: [f32; 3]) -> C::Code {
-        C::encode(Rotation::of::<C>().turn_one(v, self.number(index)))
+        C::encode(Rotation::of(C::FORMAT).turn_one(v, self.index(index)))
     }
 
     /// [`Codec::encode_precise`] of a vector that is element `index`.
     #[inline]
     pub fn encode_precise<C: Codec>(self, index: u32, v: [f32; 3]) -> C::Code {
-        C::encode_precise(Rotation::of::<C>().turn_one(v, self.number(index)))
+        C::encode_precise(Rotation::of(C::FORMAT).turn_one(v, self.index(index)))
     }
 
     /// The vector of element `index`, of length 1 to 2.5e-7.
     #[inline]
     pub fn decode<C: Codec>(self, index: u32, code: C::Code) -> [f32; 3] {
-        Rotation::of::<C>().back().turn_one(C::decode(code), self.number(index))
+        Rotation::of(C::FORMAT).back().turn_one(C::decode(code), self.index(index))
     }
 
     /// [`encode`](Dither::encode) for structures of arrays, whose first vector is element `first`. After element
@@ -102,7 +104,9 @@ impl Dither {
         v: Soa<'_>,
         codes: &mut [C::Code],
     ) -> Result<(), LengthMismatch> {
-        self.encode_all(Rotation::of::<C>(), first, v, codes, C::encode_soa)
+        LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+        self.encode_turned(&C::encode_batch, C::FORMAT, first, v.into(), CodesMut::native(codes));
+        Ok(())
     }
 
     /// [`encode_precise`](Dither::encode_precise) for structures of arrays, whose first vector is element
@@ -117,7 +121,15 @@ impl Dither {
         v: Soa<'_>,
         codes: &mut [C::Code],
     ) -> Result<(), LengthMismatch> {
-        self.encode_all(Rotation::of::<C>(), first, v, codes, C::encode_soa_precise)
+        LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+        self.encode_turned(
+            &C::encode_batch_precise,
+            C::FORMAT,
+            first,
+            v.into(),
+            CodesMut::native(codes),
+        );
+        Ok(())
     }
 
     /// [`decode`](Dither::decode) for structures of arrays, whose first vector is element `first`.
@@ -131,7 +143,9 @@ impl Dither {
         codes: &[C::Code],
         v: SoaMut<'_>,
     ) -> Result<(), LengthMismatch> {
-        self.decode_all(Rotation::of::<C>().back(), first, codes, v, C::decode_soa)
+        LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+        self.decode_turned(&C::decode_batch, C::FORMAT, first, Codes::native(codes), v.into());
+        Ok(())
     }
 
     /// Stochastic rounding: one of the three points around `v`, each with such a probability that their mean has the
@@ -153,7 +167,7 @@ impl Dither {
     /// ```
     #[inline]
     pub fn encode_stochastic<C: StochasticRounding>(self, index: u32, v: [f32; 3]) -> C::Code {
-        C::encode_one_of(v, self.random(index))
+        C::encode_one(self.index(index), v)
     }
 
     /// [`encode_stochastic`](Dither::encode_stochastic) for structures of arrays, whose first vector is element
@@ -161,82 +175,73 @@ impl Dither {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
+    #[inline]
     pub fn encode_soa_stochastic<C: StochasticRounding>(
         self,
-        mut first: u32,
+        first: u32,
         v: Soa<'_>,
         codes: &mut [C::Code],
     ) -> Result<(), LengthMismatch> {
         LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
-        let vectors = v.x.chunks(STAGE).zip(v.y.chunks(STAGE)).zip(v.z.chunks(STAGE));
-        for (((x, y), z), codes) in vectors.zip(codes.chunks_mut(STAGE)) {
-            let random: [u32; STAGE] =
-                array::from_fn(|i| self.random(first.wrapping_add(i as u32)));
-            C::encode_soa_one_of(Soa { x, y, z }, &random[..x.len().min(STAGE)], codes);
-            first = first.wrapping_add(STAGE as u32);
-        }
+        C::encode_batch_stochastic(self.index(first), v.into(), CodesMut::native(codes));
         Ok(())
     }
 
+    /// The number that the rotation of element `first`, and those after it, come from.
     #[inline(always)]
-    fn number(self, index: u32) -> u32 {
-        self.start.wrapping_add(index)
+    fn index(self, first: u32) -> u32 {
+        self.start.wrapping_add(first)
     }
 
-    /// 32 bits. Source: Wellons, "Prospecting for Hash Functions", 2018.
-    #[inline(always)]
-    fn random(self, index: u32) -> u32 {
-        let x = self.number(index);
-        let x = (x ^ x >> 16).wrapping_mul(0x7FEB_352D);
-        let x = (x ^ x >> 15).wrapping_mul(0x846C_A68B);
-        x ^ x >> 16
-    }
-
-    fn encode_all<T>(
+    #[inline(never)]
+    fn encode_turned(
         self,
-        rotation: Rotation,
-        mut first: u32,
-        v: Soa<'_>,
-        codes: &mut [T],
-        encode: fn(Soa<'_>, &mut [T]) -> Result<(), LengthMismatch>,
-    ) -> Result<(), LengthMismatch> {
-        LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
-        let mut stage = Stage::new();
-        let vectors = v.x.chunks(STAGE).zip(v.y.chunks(STAGE)).zip(v.z.chunks(STAGE));
-        for (((x, y), z), codes) in vectors.zip(codes.chunks_mut(STAGE)) {
-            let numbers = &self.numbers(first)[..x.len().min(STAGE)];
-            let to = stage.write(x.len());
-            dispatch(Turn { rotation, numbers, v: Soa { x, y, z }, to });
-            encode(stage.read(x.len()), codes)?;
-            first = first.wrapping_add(STAGE as u32);
+        encode: &dyn Fn(Vectors<'_, 3>, CodesMut<'_>),
+        format: Format,
+        first: u32,
+        vectors: Vectors<'_, 3>,
+        codes: CodesMut<'_>,
+    ) {
+        let rotation = Rotation::of(format);
+        let mut buffer = [[0.0; PART]; 3];
+        let mut turned = [[0.0; PART]; 3];
+        let mut done = 0;
+        for codes in codes.parts() {
+            let len = codes.len();
+            let numbers = Indices { first: self.index(first).wrapping_add(done as u32), len };
+            let vectors = vectors.part(done, len, &mut buffer);
+            if let Some(turned) = columns_mut(&mut turned, len) {
+                map(Turn(rotation), (vectors, numbers), turned);
+            }
+            encode(Vectors::Columns(columns(&turned, len)), codes);
+            done += len;
         }
-        Ok(())
     }
 
-    fn decode_all<T>(
+    #[inline(never)]
+    fn decode_turned(
         self,
-        rotation: Rotation,
-        mut first: u32,
-        codes: &[T],
-        v: SoaMut<'_>,
-        decode: fn(&[T], SoaMut<'_>) -> Result<(), LengthMismatch>,
-    ) -> Result<(), LengthMismatch> {
-        LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
-        let mut stage = Stage::new();
-        let vectors = v.x.chunks_mut(STAGE).zip(v.y.chunks_mut(STAGE)).zip(v.z.chunks_mut(STAGE));
-        for (((x, y), z), codes) in vectors.zip(codes.chunks(STAGE)) {
-            let numbers = &self.numbers(first)[..codes.len().min(STAGE)];
-            decode(codes, stage.write(codes.len()))?;
-            let v = stage.read(codes.len());
-            dispatch(Turn { rotation, numbers, v, to: SoaMut { x, y, z } });
-            first = first.wrapping_add(STAGE as u32);
+        decode: &dyn Fn(Codes<'_>, VectorsMut<'_, 3>),
+        format: Format,
+        first: u32,
+        codes: Codes<'_>,
+        mut vectors: VectorsMut<'_, 3>,
+    ) {
+        let rotation = Rotation::of(format).back();
+        let mut buffer = [[0.0; PART]; 3];
+        let mut turned = [[0.0; PART]; 3];
+        let mut done = 0;
+        for codes in codes.parts() {
+            let len = codes.len();
+            let numbers = Indices { first: self.index(first).wrapping_add(done as u32), len };
+            if let Some(turned) = columns_mut(&mut turned, len) {
+                decode(codes, VectorsMut::Columns(turned));
+            }
+            let part;
+            (part, vectors) = vectors.split_at(len);
+            part.write(&mut buffer, |to| map(Turn(rotation), (columns(&turned, len), numbers), to));
+            done += len;
         }
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn numbers(self, first: u32) -> [u32; STAGE] {
-        array::from_fn(|i| self.number(first).wrapping_add(i as u32))
     }
 }
 
@@ -256,12 +261,12 @@ impl Rotation {
     const STEPS: [i32; 3] =
         [0xD1B5_4A33_u32 as i32, 0xABC9_8389_u32 as i32, 0x8CB9_2BA7_u32 as i32];
 
-    /// Turns by up to twice the greatest error around each axis, but by half a radian at the most.
+    /// Turns by up to twice the maximum error around each axis, and by at most half a radian.
     #[inline]
-    fn of<C: Codec>() -> Self {
-        let reach = 2.0 * C::FORMAT.max_error_precise_degrees().to_radians();
+    fn of(format: Format) -> Self {
+        let reach = 2.0 * format.max_error_precise_degrees().to_radians();
         let reach = if reach < 0.5 { reach } else { 0.5 };
-        Rotation { width: (0.5 * reach) as f32, upright: C::FORMAT.is_hemisphere(), back: false }
+        Rotation { width: (0.5 * reach) as f32, upright: format.is_hemisphere(), back: false }
     }
 
     #[inline]
@@ -270,132 +275,129 @@ impl Rotation {
     }
 
     #[inline(always)]
-    fn turn<V: Simd>(self, v: [V; 3], number: V::Int) -> [V; 3] {
-        let [x, y, z] = direction(v);
+    fn turn<V: Simd>(self, v: Vec3<V>, number: V::Int) -> Vec3<V> {
+        let v = sanitize(v);
         let width = if self.back { -self.width } else { self.width };
-        let scale = V::splat(width * (1.0 / 2_147_483_648.0));
-        let [a, b, c] = Self::STEPS.each(
-            #[inline(always)]
-            |step| V::from_int(number * V::Int::splat(step)) * scale,
-        );
-        let [a, b] = if self.upright { [V::zero(); 2] } else { [a, b] };
+        let scale = width * (1.0 / 2_147_483_648.0);
+        let [a, b, c] = map3!(Self::STEPS, |step| V::from_int(number * step) * scale);
+        let zero = V::splat(0.0);
+        let u = if self.upright { Vec3::new(zero, zero, c) } else { Vec3::new(a, b, c) };
         // v + 2 u x (v + u x v) / (1 + |u|^2).
-        let cross = inlined(
-            #[inline(always)]
-            |[x, y, z]: [V; 3]| [b * z - c * y, c * x - a * z, a * y - b * x],
-        );
-        let [p, q, r] = cross([x, y, z]);
-        let turned = cross([x + p, y + q, z + r]);
-        let k = V::splat(2.0) / (V::splat(1.0) + length_squared([a, b, c]));
-        let v = [x + k * turned[0], y + k * turned[1], z + k * turned[2]];
-        if self.back { normalize(v) } else { v }
+        let turned = u.cross(v + u.cross(v));
+        let k = V::splat(2.0) / (u.length_squared() + 1.0);
+        let v = v + turned * k;
+        if self.back { v.normalize() } else { v }
     }
 
     #[inline(always)]
     fn turn_one(self, v: [f32; 3], number: u32) -> [f32; 3] {
-        self.turn(v, Wrapping(number as i32))
+        self.turn(Vec3::from(v), I32x1(number as i32)).to_array()
     }
 }
 
-struct Turn<'a> {
-    rotation: Rotation,
-    numbers: &'a [u32],
-    v: Soa<'a>,
-    to: SoaMut<'a>,
-}
+struct Turn(Rotation);
 
-impl Job for Turn<'_> {
+impl<'a> Kernel<'a, ([&[f32]; 3], Indices), [&'a mut [f32]; 3]> for Turn {
     #[inline(always)]
-    fn run<V: Simd>(self) -> Self {
-        let Turn { rotation, numbers, v: Soa { x, y, z }, to } = self;
-        let ((xs, x), (ys, y), (zs, z)) = (V::split(x), V::split(y), V::split(z));
-        let (blocks, numbers) = V::split(numbers);
-        let ((to_xs, to_x), (to_ys, to_y), (to_zs, to_z)) =
-            (V::split_mut(to.x), V::split_mut(to.y), V::split_mut(to.z));
-        let from = xs.iter().zip(ys).zip(zs).zip(blocks);
-        for ((((x, y), z), number), ((to_x, to_y), to_z)) in
-            from.zip(to_xs.iter_mut().zip(to_ys).zip(to_zs))
-        {
-            let v = [V::load(x), V::load(y), V::load(z)];
-            let v = rotation.turn::<V>(v, V::load_int(number, |number| number));
-            v[0].store(to_x);
-            v[1].store(to_y);
-            v[2].store(to_z);
-        }
-        let to = SoaMut { x: to_x, y: to_y, z: to_z };
-        Turn { rotation, numbers, v: Soa { x, y, z }, to }
+    fn run<V: Simd>(&self, (v, number): ([V; 3], V::Int)) -> [V; 3] {
+        self.0.turn(Vec3::from(v), number).to_array()
     }
 }
 
 /// A codec whose points form a lattice of triangles with straight edges: oct and sixoct of every size. See
 /// [`Dither::encode_stochastic`].
-pub trait StochasticRounding: Codec + sealed::Sealed {
+pub trait StochasticRounding: Codec {
+    /// Of an element with this number.
     #[doc(hidden)]
-    fn encode_one_of(v: [f32; 3], random: u32) -> Self::Code;
-    /// Of equally long slices.
+    fn encode_one(number: u32, v: [f32; 3]) -> Self::Code;
+    /// Of the elements from this number on.
     #[doc(hidden)]
-    fn encode_soa_one_of(v: Soa<'_>, random: &[u32], codes: &mut [Self::Code]);
+    fn encode_batch_stochastic(first: u32, vectors: Vectors<'_, 3>, codes: CodesMut<'_>);
 }
 
-mod sealed {
-    pub trait Sealed {}
+/// 32 random bits of each number. Source: Wellons, "Prospecting for Hash Functions", 2018.
+#[inline(always)]
+fn random<I: SimdInt>(number: I) -> I {
+    let x = number;
+    let x = (x ^ x.shr_logical(16)) * 0x7FEB_352D;
+    let x = (x ^ x.shr_logical(15)) * 0x846C_A68B_u32 as i32;
+    x ^ x.shr_logical(16)
 }
 
-macro_rules! stochastic_rounding {
-    ($($codec:ident)*) => {$(
-        impl sealed::Sealed for $codec {}
-
-        impl StochasticRounding for $codec {
-            #[inline]
-            fn encode_one_of([x, y, z]: [f32; 3], random: u32) -> Self::Code {
-                let mut code = [Self::Code::zeroed()];
-                encode_block::<<$codec as Behind>::Formula, _, f32>(&[x], &[y], &[z], &[random], &mut code);
-                code[0]
-            }
-            #[inline]
-            fn encode_soa_one_of(v: Soa<'_>, random: &[u32], codes: &mut [Self::Code]) {
-                let formula = PhantomData::<<$codec as Behind>::Formula>;
-                dispatch(EncodeOneOf { v, random, codes, formula });
-            }
-        }
-    )*};
+#[inline(always)]
+fn encode_stochastic<F: Lattice, V: Simd>(formula: F, v: Vec3<V>, number: V::Int) -> V::Int {
+    // From 0 to 1, 1 excluded.
+    let t = V::from_int(random(number).shr_logical(8)) * (1.0 / 16_777_216.0);
+    formula.encode_stochastic(formula.prepare(v), t)
 }
 
-stochastic_rounding! {
-    Oct8 Oct10 Oct12 Oct14 Oct16 Oct18 Oct20 Oct22 Oct24 Oct26 Oct28 Oct30 Oct32
-    SixOct16 SixOct24 SixOct32
-}
+struct Stochastic<F>(F);
 
-struct EncodeOneOf<'a, F, C> {
-    v: Soa<'a>,
-    random: &'a [u32],
-    codes: &'a mut [C],
-    formula: PhantomData<F>,
-}
-
-impl<F: Lattice, C: Stored<One>> Job for EncodeOneOf<'_, F, C> {
+impl<'a, F: Lattice, B: CodeBytes<Shape = Word>> Kernel<'a, ([&[f32]; 3], Indices), &'a mut [B]>
+    for Stochastic<F>
+{
     #[inline(always)]
-    fn run<V: Simd>(self) -> Self {
-        let EncodeOneOf { v: Soa { x, y, z }, random, codes, formula } = self;
-        let ((xs, x), (ys, y), (zs, z)) = (V::split(x), V::split(y), V::split(z));
-        let ((randoms, random), (blocks, codes)) = (V::split(random), V::split_mut(codes));
-        for ((((x, y), z), random), codes) in xs.iter().zip(ys).zip(zs).zip(randoms).zip(blocks) {
-            encode_block::<F, C, V>(x, y, z, random, codes);
-        }
-        EncodeOneOf { v: Soa { x, y, z }, random, codes, formula }
+    fn run<V: Simd>(&self, (v, number): ([V; 3], V::Int)) -> V::Int {
+        encode_stochastic(self.0, Vec3::from(v), number)
     }
 }
 
 #[inline(always)]
-fn encode_block<F: Lattice, C: Stored<One>, V: Simd>(
-    x: &V::Block<f32>,
-    y: &V::Block<f32>,
-    z: &V::Block<f32>,
-    random: &V::Block<u32>,
-    codes: &mut V::Block<C>,
-) {
-    let v = F::prepare([V::load(x), V::load(y), V::load(z)]);
-    // From 0 to 1, 1 excluded.
-    let t = V::from_int(V::load_int(random, |bits| bits >> 8)) * V::splat(1.0 / 16_777_216.0);
-    C::store::<V>(F::encode_one_of(v, t), codes);
+fn encode_batch<F: Lattice>(formula: F, first: u32, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+    let mut buffer = [[0.0; PART]; 3];
+    let mut done = 0;
+    for codes in codes.parts() {
+        let len = codes.len();
+        let numbers = Indices { first: first.wrapping_add(done as u32), len };
+        let kernel = |v: [&[f32]; 3], codes: &mut [u8]| {
+            map(Stochastic(formula), (v, numbers), codes.as_chunks_mut::<4>().0);
+        };
+        let vectors = vectors.part(done, len, &mut buffer);
+        layout::encode(&kernel, 4, Vectors::Columns(vectors), codes);
+        done += len;
+    }
+}
+
+/// Implements the trait for the rows with the flag `stochastic`.
+macro_rules! stochastic_rounding {
+    ($(
+        #[$gate:meta]
+        $family:literal {$(
+            $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
+                exact $axes:tt $(/ $axes_precise:tt)?,
+                $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
+        )*}
+    )*) => {$($(
+        #[$gate]
+        stochastic_rounding!(
+            @row $name, $code, $formula $(::<$($kind),+>)? :: $new($($value),*); $($flag)*
+        );
+    )*)*};
+    (@row $name:ident, $code:ty, $value:expr; stochastic $($rest:ident)*) => {
+        impl StochasticRounding for crate::codec::$name {
+            #[inline]
+            fn encode_one(number: u32, v: [f32; 3]) -> $code {
+                let code = encode_stochastic($value, Vec3::from(v), I32x1(number as i32));
+                to_native::<[u8; size_of::<$code>()], $code>(code)
+            }
+            #[inline]
+            fn encode_batch_stochastic(first: u32, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+                $value.encode_stochastic_batch(first, vectors, codes);
+            }
+        }
+    };
+    (@row $name:ident, $code:ty, $value:expr; $flag:ident $($rest:ident)*) => {
+        stochastic_rounding!(@row $name, $code, $value; $($rest)*);
+    };
+    (@row $name:ident, $code:ty, $value:expr;) => {};
+}
+
+codec_table!(stochastic_rounding);
+
+#[cfg(feature = "octahedral")]
+impl Oct<Central> {
+    #[inline(never)]
+    fn encode_stochastic_batch(self, first: u32, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+        encode_batch(self, first, vectors, codes);
+    }
 }

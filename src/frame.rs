@@ -63,13 +63,19 @@
 //! Basis, Revisited", 2017; Kapoulkine, "Quantizing tangent frames", 2026; Frey and Herzeg, "Spherical
 //! Skinning with Dual-Quaternions and QTangents", 2011. The angle in place of a diamond is unitpack's.
 
-use crate::batch::{Fast, Precise, Soa, SoaMut};
+use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::storage::{from_native, to_native};
 use crate::codec::Format;
 use crate::error::LengthMismatch;
-use formula::{Prepared, skew_degrees};
+use crate::simd::{I32x1, Vec3};
+use crate::vector::{Soa, SoaMut};
+use formula::{FrameBytes, FrameFormula, Prepared, skew_degrees};
+use kernels::FrameKernels;
+use oct_angle::OctAngle;
+use qtangent::QTangent;
 
 mod formula;
-mod loops;
+mod kernels;
 mod oct_angle;
 mod qtangent;
 
@@ -88,7 +94,8 @@ impl Frame {
     /// handedness (normal x tangent): the third vector, as glTF and most programs define it.
     #[inline]
     pub fn bitangent(self) -> [f32; 3] {
-        crate::simd::math::cross(self.normal, self.tangent).map(|c| self.handedness * c)
+        let bitangent = Vec3::from(self.normal).cross(Vec3::from(self.tangent));
+        bitangent.to_array().map(|c| self.handedness * c)
     }
 
     /// By how many degrees the angle between normal and tangent, as encoders understand them, is not 90.
@@ -96,8 +103,14 @@ impl Frame {
     /// degrees below 60, to 0.05 above.
     #[inline]
     pub fn skew_degrees(self) -> f32 {
-        let Frame { normal, tangent, handedness } = self;
-        skew_degrees(Prepared::new(normal, tangent, handedness).sin_squared)
+        skew_degrees(self.prepare().sin_squared)
+    }
+}
+
+impl Frame {
+    #[inline(always)]
+    fn prepare(self) -> Prepared<f32> {
+        Prepared::new(self.normal.into(), self.tangent.into(), self.handedness)
     }
 }
 
@@ -133,11 +146,41 @@ pub struct FrameSoaMut<'a> {
     pub handedness: &'a mut [f32],
 }
 
+impl<'a> FrameSoa<'a> {
+    #[inline]
+    fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
+        let lengths = |v: Soa<'_>| [v.x.len(), v.y.len(), v.z.len()];
+        let (normal, tangent) = (lengths(self.normal), lengths(self.tangent));
+        LengthMismatch::check_frame_soa(normal, tangent, self.handedness.len(), codes)
+    }
+
+    #[inline]
+    fn vectors(self) -> (Vectors<'a, 3>, Vectors<'a, 4>) {
+        let Soa { x, y, z } = self.tangent;
+        (self.normal.into(), Vectors::Columns([x, y, z, self.handedness]))
+    }
+}
+
+impl<'a> FrameSoaMut<'a> {
+    #[inline]
+    fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
+        let lengths = |v: &SoaMut<'_>| [v.x.len(), v.y.len(), v.z.len()];
+        let (normal, tangent) = (lengths(&self.normal), lengths(&self.tangent));
+        LengthMismatch::check_frame_soa(normal, tangent, self.handedness.len(), codes)
+    }
+
+    #[inline]
+    fn vectors(self) -> (VectorsMut<'a, 3>, VectorsMut<'a, 4>) {
+        let SoaMut { x, y, z } = self.tangent;
+        (self.normal.into(), VectorsMut::Columns([x, y, z, self.handedness]))
+    }
+}
+
 /// A representation of tangent frames. What holds for all is listed [here](self#promises).
 ///
 /// Errors are angles between a vector, the tangent's being orthogonal to the normal, and the one that
 /// its code decodes to.
-pub trait FrameCodec: Copy + 'static {
+pub trait FrameCodec: FrameKernels + Copy + 'static {
     /// One packed frame.
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;
     /// The name, such as "octangle32".
@@ -177,23 +220,39 @@ pub trait FrameCodec: Copy + 'static {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the eight slices are not equally long; nothing is written then.
-    fn encode_soa(frames: FrameSoa<'_>, codes: &mut [Self::Code]) -> Result<Skew, LengthMismatch>;
+    #[inline]
+    fn encode_soa(frames: FrameSoa<'_>, codes: &mut [Self::Code]) -> Result<Skew, LengthMismatch> {
+        frames.check(codes.len())?;
+        let (normals, tangents) = frames.vectors();
+        Ok(Self::encode_batch(normals, tangents, CodesMut::native(codes)))
+    }
 
     /// [`encode_precise`](FrameCodec::encode_precise) for structures of arrays. Gives the input's
     /// greatest skew.
     ///
     /// # Errors
     /// [`LengthMismatch`] if the eight slices are not equally long; nothing is written then.
+    #[inline]
     fn encode_soa_precise(
         frames: FrameSoa<'_>,
         codes: &mut [Self::Code],
-    ) -> Result<Skew, LengthMismatch>;
+    ) -> Result<Skew, LengthMismatch> {
+        frames.check(codes.len())?;
+        let (normals, tangents) = frames.vectors();
+        Ok(Self::encode_batch_precise(normals, tangents, CodesMut::native(codes)))
+    }
 
     /// [`decode`](FrameCodec::decode) for structures of arrays.
     ///
     /// # Errors
     /// [`LengthMismatch`] if the eight slices are not equally long; nothing is written then.
-    fn decode_soa(codes: &[Self::Code], frames: FrameSoaMut<'_>) -> Result<(), LengthMismatch>;
+    #[inline]
+    fn decode_soa(codes: &[Self::Code], frames: FrameSoaMut<'_>) -> Result<(), LengthMismatch> {
+        frames.check(codes.len())?;
+        let (normals, tangents) = frames.vectors();
+        Self::decode_batch(Codes::native(codes), normals, tangents);
+        Ok(())
+    }
 
     /// [`encode`](FrameCodec::encode) for arrays of structures: normals of `N` floats, of which the first
     /// three are x, y and z, and tangents as glTF has them, x, y, z and handedness. Gives the input's
@@ -206,22 +265,32 @@ pub trait FrameCodec: Copy + 'static {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
     fn encode_aos<const N: usize>(
         normals: &[[f32; N]],
         tangents: &[[f32; 4]],
         codes: &mut [Self::Code],
-    ) -> Result<Skew, LengthMismatch>;
+    ) -> Result<Skew, LengthMismatch> {
+        LengthMismatch::check_frame_aos(normals.len(), tangents.len(), codes.len())?;
+        let (normals, tangents) = (Vectors::rows(normals), Vectors::rows(tangents));
+        Ok(Self::encode_batch(normals, tangents, CodesMut::native(codes)))
+    }
 
     /// [`encode_precise`](FrameCodec::encode_precise) for arrays of structures, as
     /// [`encode_aos`](FrameCodec::encode_aos) takes them. `N < 3` does not compile.
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
     fn encode_aos_precise<const N: usize>(
         normals: &[[f32; N]],
         tangents: &[[f32; 4]],
         codes: &mut [Self::Code],
-    ) -> Result<Skew, LengthMismatch>;
+    ) -> Result<Skew, LengthMismatch> {
+        LengthMismatch::check_frame_aos(normals.len(), tangents.len(), codes.len())?;
+        let (normals, tangents) = (Vectors::rows(normals), Vectors::rows(tangents));
+        Ok(Self::encode_batch_precise(normals, tangents, CodesMut::native(codes)))
+    }
 
     /// [`decode`](FrameCodec::decode) for arrays of structures: the first three floats of normals become
     /// x, y and z, the others stay as they are; tangents become x, y, z and handedness. `N < 3` does not
@@ -229,95 +298,103 @@ pub trait FrameCodec: Copy + 'static {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
     fn decode_aos<const N: usize>(
         codes: &[Self::Code],
         normals: &mut [[f32; N]],
         tangents: &mut [[f32; 4]],
-    ) -> Result<(), LengthMismatch>;
+    ) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_frame_aos(normals.len(), tangents.len(), codes.len())?;
+        let (normals, tangents) = (VectorsMut::rows(normals), VectorsMut::rows(tangents));
+        Self::decode_batch(Codes::native(codes), normals, tangents);
+        Ok(())
+    }
 }
 
-/// Writes the types and their `FrameCodec`.
+/// Defines the types and their `FrameCodec`.
 macro_rules! frame_codecs {
     ($(
         $(#[$doc:meta])*
         $name:ident: $code:ty = $text:literal, $bits:literal bits,
-            normal $normal:expr, $normal_precise:expr, tangent $tangent:literal / $tangent_precise:literal degrees, $formula:ty;
+            normal $normal:expr, $normal_precise:expr, tangent $tangent:literal / $tangent_precise:literal degrees,
+            $formula:ident :: new($($value:expr),*);
     )*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
         pub struct $name;
 
-        impl FrameCodec for $name {
-            type Code = $code;
-            const NAME: &'static str = $text;
-            const BITS: u32 = $bits;
-            const MAX_NORMAL_ERROR_DEGREES: f64 = $normal;
-            const MAX_NORMAL_ERROR_PRECISE_DEGREES: f64 = $normal_precise;
-            const MAX_TANGENT_ERROR_DEGREES: f64 = $tangent;
-            const MAX_TANGENT_ERROR_PRECISE_DEGREES: f64 = $tangent_precise;
+        const _: () = {
+            type Bytes = [u8; size_of::<$code>()];
+            const FORMULA: $formula = $formula::new($($value),*);
 
-            #[inline]
-            fn encode(frame: Frame) -> $code {
-                loops::encode_one::<Fast, $formula, $code>(frame)
+            impl FrameCodec for $name {
+                type Code = $code;
+                const NAME: &'static str = $text;
+                const BITS: u32 = $bits;
+                const MAX_NORMAL_ERROR_DEGREES: f64 = $normal;
+                const MAX_NORMAL_ERROR_PRECISE_DEGREES: f64 = $normal_precise;
+                const MAX_TANGENT_ERROR_DEGREES: f64 = $tangent;
+                const MAX_TANGENT_ERROR_PRECISE_DEGREES: f64 = $tangent_precise;
+
+                #[inline]
+                fn encode(frame: Frame) -> $code {
+                    from_words(FORMULA.encode::<f32, false>(frame.prepare()))
+                }
+                #[inline]
+                fn encode_precise(frame: Frame) -> $code {
+                    from_words(FORMULA.encode::<f32, true>(frame.prepare()))
+                }
+                #[inline]
+                fn decode(code: $code) -> Frame {
+                    let frame = FORMULA.decode::<f32>(to_words(code));
+                    Frame {
+                        normal: frame.normal.to_array(),
+                        tangent: frame.tangent.to_array(),
+                        handedness: frame.handedness,
+                    }
+                }
+                #[inline]
+                fn canonical(code: $code) -> $code {
+                    from_words(FORMULA.canonical::<f32>(to_words(code)))
+                }
             }
-            #[inline]
-            fn encode_precise(frame: Frame) -> $code {
-                loops::encode_one::<Precise, $formula, $code>(frame)
+
+            #[inline(always)]
+            fn from_words(words: [I32x1; 2]) -> $code {
+                to_native::<Bytes, $code>(Bytes::from_words::<f32>(words))
             }
-            #[inline]
-            fn decode(code: $code) -> Frame {
-                loops::decode_one::<$formula, $code>(code)
+            #[inline(always)]
+            fn to_words(code: $code) -> [I32x1; 2] {
+                Bytes::to_words::<f32>(from_native::<Bytes, $code>(code))
             }
-            #[inline]
-            fn canonical(code: $code) -> $code {
-                loops::canonical_one::<$formula, $code>(code)
+
+            impl FrameKernels for $name {
+                #[inline(never)]
+                fn encode_batch(
+                    normals: Vectors<'_, 3>,
+                    tangents: Vectors<'_, 4>,
+                    codes: CodesMut<'_>,
+                ) -> Skew {
+                    kernels::encode::<_, { size_of::<$code>() }, false>(FORMULA, normals, tangents, codes)
+                }
+                #[inline(never)]
+                fn encode_batch_precise(
+                    normals: Vectors<'_, 3>,
+                    tangents: Vectors<'_, 4>,
+                    codes: CodesMut<'_>,
+                ) -> Skew {
+                    kernels::encode::<_, { size_of::<$code>() }, true>(FORMULA, normals, tangents, codes)
+                }
+                #[inline(never)]
+                fn decode_batch(
+                    codes: Codes<'_>,
+                    normals: VectorsMut<'_, 3>,
+                    tangents: VectorsMut<'_, 4>,
+                ) {
+                    kernels::decode::<_, { size_of::<$code>() }>(FORMULA, codes, normals, tangents);
+                }
             }
-            #[inline]
-            fn encode_soa(
-                frames: FrameSoa<'_>,
-                codes: &mut [$code],
-            ) -> Result<Skew, LengthMismatch> {
-                loops::encode_soa::<Fast, $formula, $code>(frames, codes)
-            }
-            #[inline]
-            fn encode_soa_precise(
-                frames: FrameSoa<'_>,
-                codes: &mut [$code],
-            ) -> Result<Skew, LengthMismatch> {
-                loops::encode_soa::<Precise, $formula, $code>(frames, codes)
-            }
-            #[inline]
-            fn decode_soa(
-                codes: &[$code],
-                frames: FrameSoaMut<'_>,
-            ) -> Result<(), LengthMismatch> {
-                loops::decode_soa::<$formula, $code>(codes, frames)
-            }
-            #[inline]
-            fn encode_aos<const N: usize>(
-                normals: &[[f32; N]],
-                tangents: &[[f32; 4]],
-                codes: &mut [$code],
-            ) -> Result<Skew, LengthMismatch> {
-                loops::encode_aos::<Fast, $formula, $code, N>(normals, tangents, codes)
-            }
-            #[inline]
-            fn encode_aos_precise<const N: usize>(
-                normals: &[[f32; N]],
-                tangents: &[[f32; 4]],
-                codes: &mut [$code],
-            ) -> Result<Skew, LengthMismatch> {
-                loops::encode_aos::<Precise, $formula, $code, N>(normals, tangents, codes)
-            }
-            #[inline]
-            fn decode_aos<const N: usize>(
-                codes: &[$code],
-                normals: &mut [[f32; N]],
-                tangents: &mut [[f32; 4]],
-            ) -> Result<(), LengthMismatch> {
-                loops::decode_aos::<$formula, $code, N>(codes, normals, tangents)
-            }
-        }
+        };
     )*};
 }
 
@@ -331,7 +408,7 @@ frame_codecs! {
     /// are not canonical; `encode_precise(decode(code))` is `canonical(code)`.
     OctAngle32: u32 = "octangle32", 32 bits,
         normal Format::Oct22.max_error_degrees(), Format::Oct22.max_error_precise_degrees(),
-        tangent 0.3714 / 0.3606 degrees, oct_angle::OctAngle<22, 9>;
+        tangent 0.3714 / 0.3606 degrees, OctAngle::new(22, 9);
     /// 64 bits in a `u64`: the code of [`Oct32`](crate::Oct32), 31 bits of angle and the handedness, 1 for -1,
     /// from the low bits up.
     ///
@@ -344,7 +421,7 @@ frame_codecs! {
     /// `encode_precise(decode(code))` is `canonical(code)` but for the angle, which is within 256 of it.
     OctAngle64: u64 = "octangle64", 64 bits,
         normal Format::Oct32.max_error_degrees(), Format::Oct32.max_error_precise_degrees(),
-        tangent 0.003776 / 0.002526 degrees, oct_angle::OctAngle<32, 31>;
+        tangent 0.003776 / 0.002526 degrees, OctAngle::new(32, 31);
     /// 64 bits in an `[i16; 4]`: a quaternion's x, y, z and w as snorm, with the sign of the handedness.
     ///
     /// Greatest error of normal and tangent: 0.00468° with `encode`, 0.00434° with `encode_precise`; where the frame
@@ -361,5 +438,5 @@ frame_codecs! {
     /// `encode_precise(decode(code))` is `canonical(code)`, or another one that decodes alike but for rounding,
     /// to 2e-6 radians.
     QTangent64: [i16; 4] = "qtangent64", 64 bits,
-        normal 0.00468, 0.00434, tangent 0.00468 / 0.00434 degrees, qtangent::QTangent;
+        normal 0.00468, 0.00434, tangent 0.00468 / 0.00434 degrees, QTangent::new();
 }

@@ -12,14 +12,21 @@ pub mod decode_table;
 pub mod dither;
 mod error;
 mod formula;
+#[cfg(feature = "frame")]
 pub mod frame;
 pub mod low_dimensions;
 pub mod packing;
+#[cfg(feature = "quaternion")]
 pub mod quaternion;
 pub mod scalar;
 mod simd;
+#[cfg(feature = "spherical")]
+mod spherical_fibonacci;
+mod vector;
 
 pub use batch::code_int::CodeInt;
-pub use batch::{Soa, SoaMut, transcode};
 pub use codec::*;
 pub use error::LengthMismatch;
+#[cfg(feature = "spherical")]
+pub use spherical_fibonacci::SphericalFibonacci;
+pub use vector::{Soa, SoaMut};

@@ -24,11 +24,13 @@
 //! ```
 
 use crate::batch::code_int::{CodeInt, holds};
-use crate::batch::{self, Kernel};
+use crate::batch::columns::{Rows, RowsMut};
+use crate::batch::storage::{from_native, to_native};
+use crate::batch::{Kernel, map};
 use crate::error::LengthMismatch;
-use crate::formula::bits::{pack_snorm2, snorm_max, unpack_snorm2};
-use crate::scalar::{Grid, Snorm};
-use crate::simd::{Each, Simd};
+use crate::formula::support::bits::Pair;
+use crate::scalar::{Grid, SnormGrid};
+use crate::simd::{Simd, map2};
 
 /// Two snorm numbers of 12 bits as an RGB8 texel, as [`Oct24`](crate::Oct24) packs its parameters:
 /// with u and v from -2047 to 2047 plus 2047, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
@@ -46,20 +48,20 @@ use crate::simd::{Each, Simd};
 /// ```
 #[inline]
 pub fn pack_snorm12x2(pair: [f32; 2]) -> [u8; 3] {
-    batch::run_one::<PackSnorm12x2, _, _>(pair)
+    to_native::<[u8; 3], [u8; 3]>(PackSnorm12x2.pack::<f32>(pair))
 }
 
 /// [`pack_snorm12x2`] for slices.
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn pack_snorm12x2_slice(
     pairs: &[[f32; 2]],
     texels: &mut [[u8; 3]],
 ) -> Result<(), LengthMismatch> {
     LengthMismatch::check_values(pairs.len(), texels.len())?;
-    batch::run::<PackSnorm12x2, _, _>(pairs, texels);
+    let rows = bytemuck::cast_slice(pairs);
+    map(PackSnorm12x2, Rows::<2, 2>(rows), texels);
     Ok(())
 }
 
@@ -70,47 +72,53 @@ pub fn pack_snorm12x2_slice(
 /// 2014, listing 5. Evaluated in `f32`, its `s / 2047 - 1` rounds twice, and is off by up to 2^-24.
 #[inline]
 pub fn unpack_snorm12x2(texel: [u8; 3]) -> [f32; 2] {
-    batch::run_one::<UnpackSnorm12x2, _, _>(texel)
+    UnpackSnorm12x2.unpack::<f32>(from_native::<[u8; 3], [u8; 3]>(texel))
 }
 
 /// [`unpack_snorm12x2`] for slices.
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn unpack_snorm12x2_slice(
     texels: &[[u8; 3]],
     pairs: &mut [[f32; 2]],
 ) -> Result<(), LengthMismatch> {
     LengthMismatch::check_values(pairs.len(), texels.len())?;
-    batch::run::<UnpackSnorm12x2, _, _>(texels, pairs);
+    let rows = bytemuck::cast_slice_mut(pairs);
+    map(UnpackSnorm12x2, texels, RowsMut::<2, 2>(rows));
     Ok(())
 }
 
 struct PackSnorm12x2;
 struct UnpackSnorm12x2;
 
-impl Kernel<[f32; 2], [u8; 3]> for PackSnorm12x2 {
+impl PackSnorm12x2 {
     #[inline(always)]
-    fn run<V: Simd>(pairs: &V::Block<[f32; 2]>, texels: &mut V::Block<[u8; 3]>) {
-        let params = [0, 1].each(|i: usize| {
-            let x = V::from_bits(V::load_int(pairs, |pair: [f32; 2]| pair[i].to_bits()));
-            Snorm::<12>::nearest(x)
-        });
-        V::store_int(pack_snorm2::<24, V>(params), texels, |texel: &mut [u8; 3], code| {
-            [texel[0], texel[1], texel[2], _] = code.to_le_bytes();
-        });
+    fn pack<V: Simd>(&self, pair: [V; 2]) -> V::Int {
+        const GRID: SnormGrid = SnormGrid::new(12);
+        Pair::new(24).pack_snorm::<V>(map2!(pair, |x| GRID.nearest(x)))
     }
 }
 
-impl Kernel<[u8; 3], [f32; 2]> for UnpackSnorm12x2 {
+impl UnpackSnorm12x2 {
     #[inline(always)]
-    fn run<V: Simd>(texels: &V::Block<[u8; 3]>, pairs: &mut V::Block<[f32; 2]>) {
-        let code = V::load_int(texels, |[r, g, b]: [u8; 3]| u32::from_le_bytes([r, g, b, 0]));
-        let [x, y] = unpack_snorm2::<24, V>(code)
-            .each(|i| (V::from_int(i) / V::splat(snorm_max(12) as f32)).to_bits());
-        V::store_int(x, pairs, |pair: &mut [f32; 2], bits| pair[0] = f32::from_bits(bits));
-        V::store_int(y, pairs, |pair: &mut [f32; 2], bits| pair[1] = f32::from_bits(bits));
+    fn unpack<V: Simd>(&self, code: V::Int) -> [V; 2] {
+        let pair = Pair::new(24);
+        map2!(pair.unpack_snorm::<V>(code), |i| V::from_int(i) / pair.snorm_max() as f32)
+    }
+}
+
+impl<'a> Kernel<'a, Rows<'_, 2, 2>, &'a mut [[u8; 3]]> for PackSnorm12x2 {
+    #[inline(always)]
+    fn run<V: Simd>(&self, pair: [V; 2]) -> V::Int {
+        self.pack(pair)
+    }
+}
+
+impl<'a> Kernel<'a, &[[u8; 3]], RowsMut<'a, 2, 2>> for UnpackSnorm12x2 {
+    #[inline(always)]
+    fn run<V: Simd>(&self, code: V::Int) -> [V; 2] {
+        self.unpack::<V>(code)
     }
 }
 

@@ -32,13 +32,13 @@
 //! # Ok::<(), unitpack::LengthMismatch>(())
 //! ```
 
-use core::marker::PhantomData;
-
 use crate::batch::code_int::{CodeInt, holds};
-use crate::batch::{self, Kernel};
+use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::{Kernel, map, run};
 use crate::error::LengthMismatch;
-use crate::formula::bits::{snorm_max, unorm_max};
-use crate::simd::{Simd, SimdInt};
+use crate::formula::support::bits::{snorm_max, unorm_max};
+use crate::simd::stream::Fence;
+use crate::simd::{I32x1, Simd, SimdInt};
 
 /// A grid of numbers, and the codes of its points.
 pub trait Scalar: Copy + 'static {
@@ -80,40 +80,36 @@ pub trait Scalar: Copy + 'static {
     fn decode_slice<C: CodeInt>(codes: &[C], values: &mut [f32]) -> Result<(), LengthMismatch>;
 }
 
-/// A [`Scalar`] as arithmetic on lanes.
-pub(crate) trait Grid: 'static {
-    const BITS: u32;
+/// A [`Scalar`] on any number of lanes.
+pub(crate) trait Grid: Copy + Send + Sync + 'static {
     /// The index of the nearest point, ties to even. Negative ones have their sign in all bits.
-    fn nearest<V: Simd>(x: V) -> V::Int;
-    /// The point of a code, whose bits above `BITS` are ignored.
-    fn value<V: Simd>(code: V::Int) -> V;
+    fn nearest<V: Simd>(self, x: V) -> V::Int;
+    /// The point of a code, whose bits above its width are ignored.
+    fn value<V: Simd>(self, code: V::Int) -> V;
 }
 
-/// [`Scalar::encode`].
-struct Encode<G>(PhantomData<G>);
+/// [`Scalar::encode`], of which the low bits count.
+struct Encode<G>(G, u32);
 /// [`Scalar::decode`].
-struct Decode<G>(PhantomData<G>);
+struct Decode<G>(G);
 
-impl<G: Grid, C: CodeInt> Kernel<f32, C> for Encode<G> {
+impl<'a, G: Grid> Kernel<'a, [&[f32]; 1], &'a mut [[u8; 4]]> for Encode<G> {
     #[inline(always)]
-    fn run<V: Simd>(values: &V::Block<f32>, codes: &mut V::Block<C>) {
-        const { assert!(holds::<C>(G::BITS), "the integer is narrower than the codes") };
-        let code = G::nearest(V::load(values)).low(G::BITS);
-        V::store_int(code, codes, |c, i| *c = C::truncate(i));
+    fn run<V: Simd>(&self, [x]: [V; 1]) -> V::Int {
+        self.0.nearest(x).low_bits(self.1)
     }
 }
 
-impl<G: Grid, C: CodeInt> Kernel<C, f32> for Decode<G> {
+impl<'a, G: Grid> Kernel<'a, &[[u8; 4]], [&'a mut [f32]; 1]> for Decode<G> {
     #[inline(always)]
-    fn run<V: Simd>(codes: &V::Block<C>, values: &mut V::Block<f32>) {
-        const { assert!(holds::<C>(G::BITS), "the integer is narrower than the codes") };
-        G::value::<V>(V::load_int(codes, C::into)).store(values);
+    fn run<V: Simd>(&self, code: V::Int) -> [V; 1] {
+        [self.0.value::<V>(code)]
     }
 }
 
-/// Writes the types and their `Scalar`.
+/// Writes the types and their `Scalar`. The loops are not generic, so that they are compiled here.
 macro_rules! scalars {
-    ($($(#[$doc:meta])* $name:ident;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident: $grid:ident;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
         pub struct $name<const BITS: u32>;
@@ -126,19 +122,20 @@ macro_rules! scalars {
 
             #[inline]
             fn encode(x: f32) -> u32 {
-                batch::run_one::<Encode<Self>, f32, u32>(x)
+                $grid { bits: Self::BITS }.nearest(x).low_bits(BITS).0 as u32
             }
             #[inline]
             fn decode(code: u32) -> f32 {
-                batch::run_one::<Decode<Self>, u32, f32>(code)
+                $grid { bits: Self::BITS }.value(I32x1(code as i32))
             }
             #[inline]
             fn encode_slice<C: CodeInt>(
                 values: &[f32],
                 codes: &mut [C],
             ) -> Result<(), LengthMismatch> {
+                const { assert!(holds::<C>(Self::BITS), "the integer is narrower than the codes") };
                 LengthMismatch::check_values(values.len(), codes.len())?;
-                batch::run::<Encode<Self>, f32, C>(values, codes);
+                $grid { bits: BITS }.encode_slice(values, CodesMut::native(codes));
                 Ok(())
             }
             #[inline]
@@ -146,9 +143,27 @@ macro_rules! scalars {
                 codes: &[C],
                 values: &mut [f32],
             ) -> Result<(), LengthMismatch> {
+                const { assert!(holds::<C>(Self::BITS), "the integer is narrower than the codes") };
                 LengthMismatch::check_values(values.len(), codes.len())?;
-                batch::run::<Decode<Self>, C, f32>(codes, values);
+                $grid { bits: BITS }.decode_slice(Codes::native(codes), values);
                 Ok(())
+            }
+        }
+
+        impl $grid {
+            #[inline(never)]
+            fn encode_slice(self, values: &[f32], codes: CodesMut<'_>) {
+                let kernel = |values: [&[f32]; 1], codes: &mut [u8]| {
+                    map(Encode(self, self.bits), values, codes.as_chunks_mut().0);
+                };
+                layout::encode(&kernel, 4, Vectors::Columns([values]), codes);
+            }
+            #[inline(never)]
+            fn decode_slice(self, codes: Codes<'_>, values: &mut [f32]) {
+                let kernel = layout::decode_kernel(|codes: &[u8], values, fence: &Fence<'_>| {
+                    run(Decode(self), codes.as_chunks().0, values, fence);
+                });
+                layout::decode(&kernel, 4, codes, VectorsMut::Columns([values]));
             }
         }
     )*};
@@ -156,94 +171,109 @@ macro_rules! scalars {
 
 scalars! {
     /// Unsigned normalised: i / M from 0 to 1, with M = 2^`BITS` - 1. Exact at 0 and 1.
-    Unorm;
+    Unorm: UnormGrid;
     /// Signed normalised: i / M from -1 to 1, with M = 2^(`BITS`-1) - 1. Exact at -1, 0 and 1. The
     /// pattern -M-1 reads as -M.
-    Snorm;
+    Snorm: SnormGrid;
     /// Scaled and biased unorm: (x + 1) / 2 as [`Unorm`], so 2 i / M - 1 from -1 to 1, with
     /// M = 2^`BITS` - 1. Exact at -1 and 1. Not at 0, which lies half way between two codes: it,
     /// and NaN, become the even one, 2^(`BITS`-1), which reads as 1 / M.
-    BiasedUnorm;
+    BiasedUnorm: BiasedUnormGrid;
     /// Signed fixed point: i / 2^(`BITS`-1), from -1 to 1 - 2^-(`BITS`-1). Every code is exact, so
     /// -1 and 0 are. 1 is out of range.
-    Fixed;
+    Fixed: FixedGrid;
 }
 
-impl<const BITS: u32> Grid for Unorm<BITS> {
-    const BITS: u32 = <Self as Scalar>::BITS;
+#[derive(Clone, Copy)]
+pub(crate) struct UnormGrid {
+    bits: u32,
+}
+#[derive(Clone, Copy)]
+pub(crate) struct SnormGrid {
+    bits: u32,
+}
+#[derive(Clone, Copy)]
+pub(crate) struct BiasedUnormGrid {
+    bits: u32,
+}
+#[derive(Clone, Copy)]
+pub(crate) struct FixedGrid {
+    bits: u32,
+}
 
+impl Grid for UnormGrid {
     #[inline(always)]
-    fn nearest<V: Simd>(x: V) -> V::Int {
-        times_max(clamp(x).greater(V::zero()), BITS)
+    fn nearest<V: Simd>(self, x: V) -> V::Int {
+        times_max(clamp(x).max(0.0), self.bits)
     }
     #[inline(always)]
-    fn value<V: Simd>(code: V::Int) -> V {
-        V::from_int(code.low(BITS)) / V::splat(unorm_max(BITS) as f32)
+    fn value<V: Simd>(self, code: V::Int) -> V {
+        V::from_int(code.low_bits(self.bits)) / unorm_max(self.bits) as f32
     }
 }
 
-impl<const BITS: u32> Grid for Snorm<BITS> {
-    const BITS: u32 = <Self as Scalar>::BITS;
+impl SnormGrid {
+    pub(crate) const fn new(bits: u32) -> Self {
+        SnormGrid { bits }
+    }
+}
 
+impl Grid for SnormGrid {
     #[inline(always)]
-    fn nearest<V: Simd>(x: V) -> V::Int {
+    fn nearest<V: Simd>(self, x: V) -> V::Int {
         let x = clamp(x);
-        let magnitude = times_max(x.abs(), BITS - 1);
-        V::Int::select(x.lt(V::zero()), -magnitude, magnitude)
+        let magnitude = times_max(x.abs(), self.bits - 1);
+        V::Int::select(x.lt(0.0), -magnitude, magnitude)
     }
     #[inline(always)]
-    fn value<V: Simd>(code: V::Int) -> V {
-        let max = snorm_max(BITS);
-        V::from_int(code.sign_extend(BITS).max(V::Int::splat(-max))) / V::splat(max as f32)
+    fn value<V: Simd>(self, code: V::Int) -> V {
+        let max = snorm_max(self.bits);
+        V::from_int(code.sign_extend(self.bits).max(-max)) / max as f32
     }
 }
 
-impl<const BITS: u32> Grid for BiasedUnorm<BITS> {
-    const BITS: u32 = <Self as Scalar>::BITS;
-
+impl Grid for BiasedUnormGrid {
     #[inline(always)]
-    fn nearest<V: Simd>(x: V) -> V::Int {
+    fn nearest<V: Simd>(self, x: V) -> V::Int {
         // (x + 1) / 2 M = 2^(BITS-1) + n + rest - (x + 1) / 2, with n + rest = 2^(BITS-1) x: all
         // exact.
         let x = clamp(x);
-        let (n, rest) = scale(x, BITS - 1);
-        one_less_where_below::<V>(n, rest + rest, x) + V::Int::splat(1 << (BITS - 1))
+        let (n, rest) = scale(x, self.bits - 1);
+        one_less_where_less(n, rest + rest, x) + (1 << (self.bits - 1))
     }
     #[inline(always)]
-    fn value<V: Simd>(code: V::Int) -> V {
-        let max = unorm_max(BITS);
-        let code = code.low(BITS);
-        V::from_int(code + code - V::Int::splat(max)) / V::splat(max as f32)
+    fn value<V: Simd>(self, code: V::Int) -> V {
+        let max = unorm_max(self.bits);
+        let code = code.low_bits(self.bits);
+        V::from_int(code + code - max) / max as f32
     }
 }
 
-impl<const BITS: u32> Grid for Fixed<BITS> {
-    const BITS: u32 = <Self as Scalar>::BITS;
-
+impl Grid for FixedGrid {
     #[inline(always)]
-    fn nearest<V: Simd>(x: V) -> V::Int {
-        let (n, _) = scale(clamp(x), BITS - 1);
-        n.min(V::Int::splat(snorm_max(BITS)))
+    fn nearest<V: Simd>(self, x: V) -> V::Int {
+        let (n, _) = scale(clamp(x), self.bits - 1);
+        n.min(snorm_max(self.bits))
     }
     #[inline(always)]
-    fn value<V: Simd>(code: V::Int) -> V {
-        V::from_int(code.sign_extend(BITS)) / V::splat((1 << (BITS - 1)) as f32)
+    fn value<V: Simd>(self, code: V::Int) -> V {
+        V::from_int(code.sign_extend(self.bits)) / (1 << (self.bits - 1)) as f32
     }
 }
 
 /// From -1 to 1; NaN becomes 0.
 #[inline(always)]
 fn clamp<V: Simd>(x: V) -> V {
-    // `greater` alone would not do: see there.
-    let x = V::select(x.le(x), x, V::zero());
-    x.greater(V::splat(-1.0)).lesser(V::splat(1.0))
+    // `max` alone would not do: see there.
+    let x = V::select(x.le(x), x, 0.0);
+    x.max(-1.0).min(1.0)
 }
 
 /// 2^`bits` x as the nearest integer, ties to even, and what is left, -1/2 to 1/2. Both exact for
 /// |x| <= 1 and at most 24 bits.
 #[inline(always)]
 fn scale<V: Simd>(x: V, bits: u32) -> (V::Int, V) {
-    let scaled = x * V::splat((1 << bits) as f32);
+    let scaled = x * (1 << bits) as f32;
     let n = if bits <= 22 { scaled.round_int() } else { scaled.round_int_wide() };
     (n, scaled - V::from_int(n))
 }
@@ -256,13 +286,13 @@ fn scale<V: Simd>(x: V, bits: u32) -> (V::Int, V) {
 #[inline(always)]
 fn times_max<V: Simd>(x: V, bits: u32) -> V::Int {
     let (n, rest) = scale(x, bits);
-    one_less_where_below::<V>(n, rest + V::splat(0.5), x)
+    one_less_where_less(n, rest + 0.5, x)
 }
 
 /// n - 1 where a < b; where they are equal, the even one of n and n - 1; otherwise n.
 #[inline(always)]
-fn one_less_where_below<V: Simd>(n: V::Int, a: V, b: V) -> V::Int {
-    let odd = n.low(1).eq(V::Int::splat(1));
+fn one_less_where_less<V: Simd>(n: V::Int, a: V, b: V) -> V::Int {
+    let odd = n.low_bits(1).eq(1);
     let less = a.lt(b) | (a.le(b) & odd);
-    V::Int::select(less, n - V::Int::splat(1), n)
+    V::Int::select(less, n - 1, n)
 }

@@ -1,10 +1,11 @@
 //! What packing does to given vectors, and which format is fine enough.
 
-use crate::batch::Soa;
-use crate::codec::{Codec, Format};
+use super::{Codec, Format};
 use crate::error::LengthMismatch;
-use crate::formula::direction;
+use crate::formula::support::sanitize::sanitize;
+use crate::simd::Vec3;
 use crate::simd::math::{atan2_half_turns, inv_sqrt};
+use crate::vector::Soa;
 
 /// The errors of codes, which are the angles between the vectors they were made of and those that they decode
 /// to. See [`ErrorReport::of`].
@@ -90,7 +91,7 @@ impl Format {
 fn degrees_between(v: [f32; 3], w: [f32; 3]) -> f64 {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let unit = |v: [f32; 3]| {
-        let v = direction(v).map(f64::from);
+        let v = sanitize(Vec3::from(v)).to_array().map(f64::from);
         let length = root(dot(v, v));
         v.map(|c| c / length)
     };

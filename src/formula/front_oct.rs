@@ -20,114 +20,101 @@
 //! Source: the wish for such a code, which is Sloan's, is in Cigolle et al., "A Survey of Efficient
 //! Representations for Independent Unit Vectors", 2014, "Conclusions"; the map is unitpack's.
 
-use crate::formula::bits::snorm_max;
-use crate::formula::oct::{Central, Oct, Projection, triangle_around};
-use crate::formula::{Closest, Formula, One, mirror_decoded};
-use crate::simd::math;
-use crate::simd::{Each, Simd, inlined};
+use super::oct::{Central, Oct, triangle_around};
+use super::support::closest::Closest;
+use super::{Formula, kernels, oct::Projection};
+use crate::batch::storage::Word;
+use crate::simd::math::sqrt;
+use crate::simd::{Simd, Vec3, map_vec};
 
-/// Oct in `BITS` bits, `F` times as fine at +Z.
-pub(crate) struct FrontOct<const BITS: u32, const F: u32>;
+/// Oct, `F` times as fine at +Z.
+#[derive(Clone, Copy)]
+pub(crate) struct FrontOct {
+    oct: Oct<Central>,
+    /// k, b and 1, times F^2 + 1.
+    k: f32,
+    b: f32,
+    one: f32,
+}
 
-impl<const BITS: u32, const F: u32> FrontOct<BITS, F> {
-    const M: i32 = snorm_max(BITS / 2);
-    /// k and b times F^2 + 1.
-    const K: f32 = (2 * F) as f32;
-    const B: f32 = (F * F - 1) as f32;
+impl FrontOct {
+    pub(crate) const fn new(bits: u32, f: u32) -> Self {
+        let [k, b, one] = [2 * f, f * f - 1, f * f + 1];
+        FrontOct { oct: Oct::new(bits), k: k as f32, b: b as f32, one: one as f32 }
+    }
 
-    /// (k x, k y, z + b |v|) or, `back`, (k x, k y, z - b |v|), times a length; without cancellation.
+    /// (k x, k y, z + b |v|) or, if `back`, (k x, k y, z - b |v|), times a length; without cancellation.
     #[inline(always)]
-    fn shifted<V: Simd>([x, y, z]: [V; 3], back: bool) -> [V; 3] {
-        let (k, b) = (V::splat(Self::K), V::splat(Self::B));
-        let length = math::sqrt(math::length_squared([x, y, z]));
-        let factor = V::splat((F * F + 1) as f32) * z.abs() + b * length;
+    fn shifted<V: Simd>(self, v: Vec3<V>, back: bool) -> Vec3<V> {
+        let FrontOct { k, b, one, .. } = self;
+        let Vec3 { x, y, z } = v;
+        let length = sqrt(v.length_squared());
+        let factor = z.abs() * one + length * b;
         // Away from the pole z + b |v| = (z^2 - b^2 |v|^2) / (z - b |v|), and z^2 - b^2 |v|^2 =
         // k^2 z^2 - b^2 (x^2 + y^2). In integers it is exact where it is zero on an axis.
-        let (long, short) = (x.abs().greater(y.abs()) * b, x.abs().lesser(y.abs()) * b);
-        let away = (k * z - long) * (k * z + long) - short * short;
-        let below = z.lt(V::zero());
+        let (long, short) = (x.abs().max(y.abs()) * b, x.abs().min(y.abs()) * b);
+        let away = (z * k - long) * (z * k + long) - short * short;
+        let below = z.lt(0.0);
         let towards = if back { below } else { !below };
         let height = V::select(towards, factor * factor, away).negate_where_negative(z);
-        [x * k * factor, y * k * factor, height]
+        Vec3::new(x * k * factor, y * k * factor, height)
     }
 
     /// The vector of a lattice point.
     #[inline(always)]
-    fn direction<V: Simd>(p: [V; 3]) -> [V; 3] {
-        let v = math::normalize(Self::shifted(p, false));
+    fn direction<V: Simd>(self, p: Vec3<V>) -> Vec3<V> {
+        let v = self.shifted(p, false).normalize();
         // Once more, so that the axes are exact.
-        let r = V::splat(1.5) - V::splat(0.5) * math::length_squared(v);
-        v.each(|c| c * r)
+        v * (V::splat(1.5) - v.length_squared() * 0.5)
     }
 }
 
-impl<const BITS: u32, const F: u32> Formula for FrontOct<BITS, F> {
-    type Words = One;
+impl Formula for FrontOct {
+    type Shape = Word;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        Oct::<Central, BITS>::encode(Self::shifted(v, true))
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        self.oct.encode(self.shifted(v, true))
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        let v = math::normalize(v);
-        let n = Self::shifted(v, true);
-        let (base, step) = triangle_around(Central::project(n, Self::M), Self::M);
-        let [x_sign, y_sign, z_sign] = n;
-        let point = inlined(
-            #[inline(always)]
-            |[x, y, z]: [V; 3]| {
-                let signed = [
-                    x.negate_where_negative(x_sign),
-                    y.negate_where_negative(y_sign),
-                    z.negate_where_negative(z_sign),
-                ];
-                let code = Oct::<Central, BITS>::code_of([x, y], signed);
-                (code, Self::direction(signed))
-            },
-        );
-        let mut closest = Closest::to_unit(v);
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let v = v.normalize();
+        let n = self.shifted(v, true);
+        let steps = self.oct.steps();
+        let (base, step) = triangle_around(Central::project(n, steps), steps);
+        let mut candidates = [base; 6];
         for axis in 0..3 {
-            let mut corner = base;
-            corner[axis] = corner[axis] + step;
-            let (code, decoded) = point(corner);
-            closest.consider(code, decoded);
-        }
-        for axis in 0..3 {
+            let corner = base[axis] + step;
+            candidates[axis][axis] = corner;
             // Beyond the edge that faces the corner; in the lower half, the mirror image. That of x or y
             // is farther than the corner, since the map is symmetric there.
-            let (mut beyond, mut mirrored) = (base.each(|c| c + step), base);
+            let (mut beyond, mut mirrored) = (map_vec!(base, |c| c + step), base);
             beyond[axis] = base[axis] - step;
-            let corner = base[axis] + step;
             mirrored[axis] = if axis == 2 { -corner } else { corner };
-            let outside = beyond[axis].lt(V::zero());
-            let beyond = [0, 1, 2].each(
-                #[inline(always)]
-                |i: usize| V::select(outside, mirrored[i], beyond[i]),
-            );
-            let (code, decoded) = point(beyond);
-            closest.consider(code, decoded);
+            candidates[3 + axis] = Vec3::select(beyond[axis].lt(0.0), mirrored, beyond);
+        }
+        let mut closest = Closest::to_unit(v);
+        for p in candidates {
+            let signed = p.negate_where_negative(n);
+            closest.consider(self.oct.code_of([p.x, p.y], signed), self.direction(signed));
         }
         closest.code()
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        Self::direction(Oct::<Central, BITS>::point::<V>(code).each(V::from_int))
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        self.direction(Vec3::from_int(self.oct.point::<V>(code)))
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        Oct::<Central, BITS>::canonical::<V>(code)
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
         if flips[2] {
-            mirror_decoded::<Self, V>(code, flips)
+            self.mirror_decoded::<V>(code, flips)
         } else {
-            Oct::<Central, BITS>::mirror::<V>(code, flips)
+            self.oct.mirror::<V>(code, flips)
         }
     }
 }
+
+kernels!(FrontOct: 4 bytes);

@@ -16,133 +16,150 @@
 //! 2014; signed oct: White, "Signed Octahedron Normal Encoding", 2017, whose parameters are unorm,
 //! so that it has no +-Z.
 
-use crate::formula::bits::{pack_snorm2, snorm_max, unpack_snorm2};
-use crate::formula::{Formula, One, Symmetric, closest_of_four, mirror_decoded, negate_if, not_if};
-use crate::simd::math;
-use crate::simd::{Each, Simd, SimdInt};
+use super::support::bits::Pair;
+use super::support::closest::{Closest, corners};
+use super::support::sign::{negate_if, not_if};
+use super::{Formula, Symmetric, kernels};
+use crate::batch::storage::Word;
+use crate::simd::{Simd, SimdInt, Vec3, map2};
 
-/// Hemi-oct in `BITS` bits.
-pub(crate) struct HemiOct<const BITS: u32>;
+/// Hemi-oct.
+#[derive(Clone, Copy)]
+pub(crate) struct HemiOct {
+    pair: Pair,
+    max: i32,
+    max_float: f32,
+    half_step: f32,
+}
 
-impl<const BITS: u32> HemiOct<BITS> {
-    const M: i32 = snorm_max(BITS / 2);
+impl HemiOct {
+    pub(crate) const fn new(bits: u32) -> Self {
+        let pair = Pair::new(bits);
+        let max = pair.snorm_max();
+        HemiOct { pair, max, max_float: max as f32, half_step: 0.5 / max as f32 }
+    }
 
     #[inline(always)]
-    fn project<V: Simd>([x, y, z]: [V; 3]) -> [V; 2] {
-        let scale = V::splat(Self::M as f32) / (x.abs() + y.abs() + z);
+    fn project<V: Simd>(self, Vec3 { x, y, z }: Vec3<V>) -> [V; 2] {
+        let scale = V::splat(self.max_float) / (x.abs() + y.abs() + z);
         let (x, y) = (x * scale, y * scale);
         [x + y, x - y]
     }
 
     /// The code with x or y negated: (x + y, x - y) becomes minus (x - y, x + y) or (x - y, x + y).
     #[inline(always)]
-    fn mirror_xy<V: Simd>(code: V::Int, x: bool, y: bool) -> V::Int {
-        let [u, w] = unpack_snorm2::<BITS, V>(code);
+    fn mirror_xy<V: Simd>(self, code: V::Int, x: bool, y: bool) -> V::Int {
+        let [u, w] = self.pair.unpack_snorm::<V>(code);
         let [u, w] = if x != y { [w, u] } else { [u, w] };
-        pack_snorm2::<BITS, V>([negate_if(u, x), negate_if(w, x)])
+        self.pair.pack_snorm::<V>([negate_if(u, x), negate_if(w, x)])
+    }
+
+    pub(crate) const fn points_per_octant(self) -> usize {
+        let side = self.max as usize + 1;
+        side * side
     }
 }
 
-impl<const BITS: u32> Formula for HemiOct<BITS> {
-    type Words = One;
+impl Formula for HemiOct {
+    type Shape = Word;
     const HEMISPHERE: bool = true;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        pack_snorm2::<BITS, V>(Self::project(v).each(|p| p.round_int()))
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        self.pair.pack_snorm::<V>(map2!(self.project(v), |p| p.round_int()))
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        let max = V::Int::splat(Self::M);
-        closest_of_four(
-            v,
-            Self::project(v),
-            #[inline(always)]
-            |params| {
-                let code = pack_snorm2::<BITS, V>(params.each(|p| p.max(-max).min(max)));
-                (code, Self::decode::<V>(code))
-            },
-        )
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let mut closest = Closest::to(v);
+        for params in corners(self.project(v)) {
+            let code = self.pair.pack_snorm::<V>(map2!(params, |p| p.clamp(-self.max, self.max)));
+            closest.consider(code, self.decode::<V>(code));
+        }
+        closest.code()
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        let [u, w] = unpack_snorm2::<BITS, V>(code);
-        let z = V::Int::splat(Self::M) - u.abs().max(w.abs());
-        let p = [u + w, u - w, z + z];
-        math::normalize(p.each(|c| V::from_int(c) * V::splat(0.5 / Self::M as f32)))
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        let [u, w] = self.pair.unpack_snorm::<V>(code);
+        let z = V::Int::splat(self.max) - u.abs().max(w.abs());
+        let p = Vec3::from_int(Vec3::new(u + w, u - w, z + z));
+        (p * self.half_step).normalize()
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        pack_snorm2::<BITS, V>(unpack_snorm2::<BITS, V>(code))
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
         let [x, y, z] = flips;
-        if z { mirror_decoded::<Self, V>(code, flips) } else { Self::mirror_xy::<V>(code, x, y) }
+        if z { self.mirror_decoded::<V>(code, flips) } else { self.mirror_xy::<V>(code, x, y) }
     }
 }
 
-/// Hemi-oct in `PAIR` bits, and the sign of z above them.
-pub(crate) struct SignedOct<const PAIR: u32>;
-
-impl<const PAIR: u32> SignedOct<PAIR> {
-    /// The code of a point of the upper hemisphere or, off the equator, of its mirror image.
+impl Symmetric for HemiOct {
     #[inline(always)]
-    fn signed<V: Simd>(code: V::Int, lower: V::Mask) -> V::Int {
-        let max = V::Int::splat(HemiOct::<PAIR>::M);
-        let [u, w] = unpack_snorm2::<PAIR, V>(code);
-        let lower = lower & u.abs().max(w.abs()).lt(max);
-        code | V::Int::select(lower, V::Int::splat(1 << PAIR), V::Int::splat(0))
-    }
-}
-
-impl<const PAIR: u32> Formula for SignedOct<PAIR> {
-    type Words = One;
-
-    #[inline(always)]
-    fn encode<V: Simd>([x, y, z]: [V; 3]) -> V::Int {
-        Self::signed::<V>(HemiOct::<PAIR>::encode([x, y, z.abs()]), z.lt(V::zero()))
-    }
-
-    #[inline(always)]
-    fn encode_precise<V: Simd>([x, y, z]: [V; 3]) -> V::Int {
-        Self::signed::<V>(HemiOct::<PAIR>::encode_precise([x, y, z.abs()]), z.lt(V::zero()))
-    }
-
-    #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        let [x, y, z] = HemiOct::<PAIR>::decode::<V>(code);
-        let lower = V::Int::splat(0).lt(code.shr(PAIR).low(1)) & V::zero().lt(z);
-        [x, y, V::select(lower, -z, z)]
-    }
-
-    #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        let lower = V::Int::splat(0).lt(code.shr(PAIR).low(1));
-        Self::signed::<V>(HemiOct::<PAIR>::canonical::<V>(code), lower)
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
-        let lower = V::Int::splat(0).lt(code.shr(PAIR).low(1));
-        Self::signed::<V>(HemiOct::<PAIR>::mirror_xy::<V>(code, x, y), not_if::<V>(lower, z))
-    }
-}
-
-impl<const BITS: u32> Symmetric for HemiOct<BITS> {
-    const ENTRIES: usize = (Self::M as usize + 1) * (Self::M as usize + 1);
-
-    #[inline(always)]
-    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
-        let zero = V::Int::splat(0);
-        let [u, w] = unpack_snorm2::<BITS, V>(code);
+    fn octant_index<V: Simd>(self, code: V::Int) -> (V::Int, Vec3<V::Mask>) {
+        let [u, w] = self.pair.unpack_snorm::<V>(code);
         let (x, y) = (u + w, u - w);
         // The parameters of (|x|, |y|): the first from 0, the second from minus to plus the first.
-        let (a, b) = ((x.abs() + y.abs()).sar(1), (x.abs() - y.abs()).sar(1));
-        (a * (a + V::Int::splat(1)) + b, [x.lt(zero), y.lt(zero), zero.lt(zero)])
+        let a = (x.abs() + y.abs()).shr_arithmetic(1);
+        let b = (x.abs() - y.abs()).shr_arithmetic(1);
+        (a * (a + 1) + b, Vec3::new(x.lt(0), y.lt(0), V::Int::splat(0).lt(0)))
     }
 }
+
+/// Hemi-oct, and the sign of z above its bits.
+#[derive(Clone, Copy)]
+pub(crate) struct SignedOct {
+    hemisphere: HemiOct,
+    sign_bit: u32,
+}
+
+impl SignedOct {
+    /// In `bits` bits, an odd number.
+    pub(crate) const fn new(bits: u32) -> Self {
+        SignedOct { hemisphere: HemiOct::new(bits - 1), sign_bit: bits - 1 }
+    }
+
+    /// The code of a point of the upper hemisphere or, off the equator, of its mirror image.
+    #[inline(always)]
+    fn signed<V: Simd>(self, code: V::Int, lower: V::Mask) -> V::Int {
+        let [u, w] = self.hemisphere.pair.unpack_snorm::<V>(code);
+        let lower = lower & u.abs().max(w.abs()).lt(self.hemisphere.max);
+        code | V::Int::select(lower, 1 << self.sign_bit, 0)
+    }
+
+    #[inline(always)]
+    fn is_lower<V: Simd>(self, code: V::Int) -> V::Mask {
+        V::Int::splat(0).lt(code.shr_logical(self.sign_bit).low_bits(1))
+    }
+}
+
+impl Formula for SignedOct {
+    type Shape = Word;
+
+    #[inline(always)]
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let code = self.hemisphere.encode(Vec3 { z: v.z.abs(), ..v });
+        self.signed::<V>(code, v.z.lt(0.0))
+    }
+
+    #[inline(always)]
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let code = self.hemisphere.encode_precise(Vec3 { z: v.z.abs(), ..v });
+        self.signed::<V>(code, v.z.lt(0.0))
+    }
+
+    #[inline(always)]
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        let v = self.hemisphere.decode::<V>(code);
+        let lower = self.is_lower::<V>(code) & V::splat(0.0).lt(v.z);
+        Vec3 { z: V::select(lower, -v.z, v.z), ..v }
+    }
+
+    #[inline(always)]
+    fn mirror<V: Simd>(self, code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
+        let lower = not_if(self.is_lower::<V>(code), z);
+        self.signed::<V>(self.hemisphere.mirror_xy::<V>(code, x, y), lower)
+    }
+}
+
+kernels!(HemiOct: 4 bytes, SignedOct: 4 bytes);

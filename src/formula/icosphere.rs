@@ -24,11 +24,12 @@
 //!
 //! Source: id Software, "Quake II" (anorms.h), 1997, for the set; the numbering is ours.
 
-use crate::formula::{Formula, One};
-use crate::simd::math::{chord_squared, normalize};
-use crate::simd::{Each, Simd, SimdInt, inlined};
+use super::{Formula, kernels};
+use crate::batch::storage::Word;
+use crate::simd::{Simd, SimdInt, Vec3, map_vec};
 
 /// The 162 vertices.
+#[derive(Clone, Copy)]
 pub(crate) struct Icosphere;
 
 const VERTICES: usize = 162;
@@ -164,47 +165,52 @@ const fn table() -> [[u32; VERTICES]; 3] {
     table
 }
 
-impl Formula for Icosphere {
-    type Words = One;
+impl Icosphere {
+    pub(crate) const fn new() -> Self {
+        Icosphere
+    }
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        let target = normalize(v.each(|c| c.abs()));
-        let negative =
-            v.each(|c| V::Int::select(c.lt(V::zero()), V::Int::splat(1), V::Int::splat(0)));
+    fn clamp<V: Simd>(code: V::Int) -> V::Int {
+        code.low_bits(8).min(VERTICES as i32 - 1)
+    }
+}
+
+impl Formula for Icosphere {
+    type Shape = Word;
+
+    #[inline(always)]
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let target = v.abs().normalize();
+        let negative = map_vec!(v, |c| V::Int::select(c.lt(0.0), 1, 0));
         let mut least = V::splat(4.0);
         let mut code = V::Int::splat(0);
         for (corner, point) in CORNERS.iter().zip(&POINTS) {
             // Half way between points f32 tells distances apart better than cosines.
-            let distance = chord_squared(point.each(|c| V::splat(c)), target);
-            let add = inlined(
-                #[inline(always)]
-                |i: usize, signs: V::Int| {
-                    if corner.point[i] > 0.0 { signs + signs + negative[i] } else { signs }
-                },
-            );
-            let signs = add(0, add(1, add(2, V::Int::splat(0))));
+            let distance = map_vec!(Vec3::from(*point), |c| V::splat(c)).distance_squared(target);
+            // A bit for each component that is not zero, x lowest.
+            let mut signs = V::Int::splat(0);
+            for axis in [2, 1, 0] {
+                if corner.point[axis] > 0.0 {
+                    signs = signs + signs + negative[axis];
+                }
+            }
             let closer = distance.lt(least);
-            code = V::Int::select(closer, signs + V::Int::splat(corner.code as i32), code);
+            code = V::Int::select(closer, signs + corner.code as i32, code);
             least = V::select(closer, distance, least);
         }
         code
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        let index = Self::canonical::<V>(code);
-        [&TABLE[0], &TABLE[1], &TABLE[2]].each(|bits| V::from_bits(V::gather(bits, index)))
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        let index = Self::clamp::<V>(code);
+        map_vec!(Vec3::new(0, 1, 2), |axis: usize| V::from_bits(V::gather(&TABLE[axis], index)))
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        code.low(8).min(V::Int::splat(VERTICES as i32 - 1))
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
-        let mut code = Self::canonical::<V>(code);
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
+        let mut code = Self::clamp::<V>(code);
         for (images, flip) in MIRROR_IMAGES.iter().zip(flips) {
             if flip {
                 code = V::gather(images, code);
@@ -213,3 +219,5 @@ impl Formula for Icosphere {
         code
     }
 }
+
+kernels!(Icosphere: 1 bytes);

@@ -19,87 +19,139 @@
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 //! 2014; optimal spacing after Smith and Petrova, "Fast Indexing of Spherical Points", 2012.
 
-use core::marker::PhantomData;
-
-use crate::formula::bits::unorm_max;
-use crate::formula::{Closest, Formula, One, around, mirror_decoded, negate_if};
-use crate::simd::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
-use crate::simd::{Simd, SimdInt, SimdMask, inlined};
+use super::support::bits::unorm_max;
+use super::support::closest::{Closest, floor_and_ceil};
+use super::support::sign::negate_if;
+use super::{Formula, kernels};
+use crate::batch::storage::Word;
+use crate::simd::math::{atan2_half_turns, horner, sin_cos_quarter_turns, sqrt};
+use crate::simd::{Simd, SimdInt, SimdMask, Vec3};
 
 /// Lat-long on the parallels `P`.
-pub(crate) struct LatLong<P>(PhantomData<P>);
+#[derive(Clone, Copy)]
+pub(crate) struct LatLong<P> {
+    parallels: P,
+    /// Number of the south pole's parallel, if the north pole's is 0.
+    last: i32,
+}
 
-/// `BITS` bits, as many points on every parallel.
-pub(crate) struct Even<const BITS: u32>;
+/// As many points on every parallel.
+#[derive(Clone, Copy)]
+pub(crate) struct Uniform {
+    /// Bits of half an index.
+    half: u32,
+    /// Number of parallels, and of points on each.
+    n: i32,
+}
 
-/// `BITS` bits, fewer points towards the poles.
-pub(crate) struct Spaced<const BITS: u32>;
+/// Fewer points towards the poles.
+#[derive(Clone, Copy)]
+pub(crate) struct Adaptive {
+    bits: u32,
+    /// First index of each parallel, with one sentinel before, 0, and two after, the number of points.
+    begins: &'static [u32],
+    last: i32,
+    /// Number of points, minus one.
+    last_point: i32,
+    /// Number of points, halved.
+    middle: i32,
+    /// 1 over the number of points.
+    per_point: f32,
+}
 
 /// Parallels at equal distances, from pole to pole, with points on them.
-pub(crate) trait Parallels: 'static {
-    /// The south pole's, if the north pole's is 0.
-    const LAST: i32;
-    /// The index of a parallel's first point, and how many it has; the poles have one.
-    fn band<V: Simd>(parallel: V::Int) -> (V::Int, V::Int);
-    /// Of an index the parallel, the point on it, and how many that has. What is beyond the last
-    /// point is on the last parallel.
-    fn find<V: Simd>(index: V::Int) -> [V::Int; 3];
+pub(crate) trait Parallels: Copy + Send + Sync + 'static {
+    /// First index of a parallel, and number of its points; the poles have one.
+    fn band<V: Simd>(self, parallel: V::Int) -> (V::Int, V::Int);
+    /// Parallel of an index, point on it, and number of its points. Indices beyond the last point are on
+    /// the last parallel.
+    fn find<V: Simd>(self, index: V::Int) -> [V::Int; 3];
 }
 
 /// Polar angle and azimuth in half turns, the azimuth from 0 to 2.
 #[inline(always)]
-fn angles<V: Simd>([x, y, z]: [V; 3]) -> [V; 2] {
+fn angles<V: Simd>(Vec3 { x, y, z }: Vec3<V>) -> [V; 2] {
     let theta = atan2_half_turns(sqrt(x * x + y * y), z);
     let phi = atan2_half_turns(y, x);
-    [theta, V::select(phi.lt(V::zero()), phi + V::splat(2.0), phi)]
+    [theta, V::select(phi.lt(0.0), phi + 2.0, phi)]
 }
 
 /// Point `k` modulo `count`, from -count to count.
 #[inline(always)]
 fn wrap<V: Simd>(k: V::Int, count: V::Int) -> V::Int {
-    let k = V::Int::select(k.lt(V::Int::splat(0)), k + count, k);
-    V::Int::select(k.lt(count), k, V::Int::splat(0))
+    let k = V::Int::select(k.lt(0), k + count, k);
+    V::Int::select(k.lt(count), k, 0)
 }
+
+impl LatLong<Uniform> {
+    pub(crate) const fn new(bits: u32) -> Self {
+        let n = unorm_max(bits / 2);
+        LatLong { parallels: Uniform { half: bits / 2, n }, last: n - 1 }
+    }
+}
+
+impl LatLong<Adaptive> {
+    /// In 16, 24 or 32 bits.
+    pub(crate) const fn new(bits: u32) -> Self {
+        let begins = match bits {
+            16 => BEGINS_16,
+            24 => BEGINS_24,
+            _ => BEGINS_32,
+        };
+        let last = begins.len() as i32 - 4;
+        let points = begins[begins.len() - 1];
+        let parallels = Adaptive {
+            bits,
+            begins,
+            last,
+            last_point: (points - 1) as i32,
+            middle: (points / 2) as i32,
+            per_point: (1.0 / points as f64) as f32,
+        };
+        LatLong { parallels, last }
+    }
+}
+
+include!(concat!(env!("OUT_DIR"), "/latlong_bands.rs"));
 
 impl<P: Parallels> LatLong<P> {
     /// Point `k` of `count` on a parallel.
     #[inline(always)]
-    fn point<V: Simd>(parallel: V::Int, k: V::Int, count: V::Int) -> [V; 3] {
+    fn point<V: Simd>(self, parallel: V::Int, k: V::Int, count: V::Int) -> Vec3<V> {
         // In quarter turns.
-        let theta = V::from_int(parallel) / V::splat(0.5 * P::LAST as f32);
+        let theta = V::from_int(parallel) / (0.5 * self.last as f32);
         // From -2 to 2: beyond half a turn a bit would be lost.
         let k = V::Int::select(count.lt(k + k), k - count, k);
         let phi = V::from_int(k.shl(2)) / V::from_int(count);
         let (sin_theta, cos_theta) = sin_cos_quarter_turns(theta);
         let (sin_phi, cos_phi) = sin_cos_quarter_turns(phi);
-        [sin_theta * cos_phi, sin_theta * sin_phi, cos_theta]
+        Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta)
     }
 }
 
 impl<P: Parallels> Formula for LatLong<P> {
-    type Words = One;
+    type Shape = Word;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
         let [theta, phi] = angles(v);
-        let (begin, count) = P::band::<V>((theta * V::splat(P::LAST as f32)).round_int());
-        begin + wrap::<V>((phi * V::splat(0.5) * V::from_int(count)).round_int(), count)
+        let (begin, count) = self.parallels.band::<V>((theta * self.last as f32).round_int());
+        begin + wrap::<V>((phi * 0.5 * V::from_int(count)).round_int(), count)
     }
 
     #[inline(never)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        V::compiled_for(
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        V::with_target_features(
             #[inline(always)]
             || {
                 let [theta, phi] = angles(v);
-                let (zero, last) = (V::Int::splat(0), V::Int::splat(P::LAST));
                 let mut closest = Closest::to(v);
-                for parallel in around(theta * V::splat(P::LAST as f32)) {
-                    let parallel = parallel.max(zero).min(last);
-                    let (begin, count) = P::band::<V>(parallel);
-                    for k in around(phi * V::splat(0.5) * V::from_int(count)) {
+                for parallel in floor_and_ceil(theta * self.last as f32) {
+                    let parallel = parallel.clamp(0, self.last);
+                    let (begin, count) = self.parallels.band::<V>(parallel);
+                    for k in floor_and_ceil(phi * 0.5 * V::from_int(count)) {
                         let k = wrap::<V>(k, count);
-                        closest.consider(begin + k, Self::point(parallel, k, count));
+                        closest.consider(begin + k, self.point(parallel, k, count));
                     }
                 }
                 closest.code()
@@ -108,117 +160,84 @@ impl<P: Parallels> Formula for LatLong<P> {
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        let [parallel, k, count] = P::find::<V>(code);
-        Self::point(parallel, wrap::<V>(k, count), count)
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        let [parallel, k, count] = self.parallels.find::<V>(code);
+        self.point(parallel, wrap::<V>(k, count), count)
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        let [parallel, k, count] = P::find::<V>(code);
-        P::band::<V>(parallel).0 + wrap::<V>(k, count)
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
         let [x, y, z] = flips;
-        let [parallel, k, count] = P::find::<V>(code);
+        let [parallel, k, count] = self.parallels.find::<V>(code);
         let k = wrap::<V>(negate_if(wrap::<V>(k, count), y), count);
-        let opposite = wrap::<V>(count.shr(1) - k, count);
-        let parallel = if z { V::Int::splat(P::LAST) - parallel } else { parallel };
-        let (begin, there) = P::band::<V>(parallel);
+        let opposite = wrap::<V>(count.shr_logical(1) - k, count);
+        let parallel = if z { V::Int::splat(self.last) - parallel } else { parallel };
+        let (begin, there) = self.parallels.band::<V>(parallel);
         let mirrored = begin + if x { opposite } else { k };
         // Off the poles, half a turn of an odd number of points ends between two.
         let one = V::Int::splat(1);
-        let between = one.lt(count) & one.lt(count.low(1) + V::Int::splat(i32::from(x)));
+        let between = one.lt(count) & one.lt(count.low_bits(1) + i32::from(x));
         let missing = between | !there.eq(count);
         if !missing.any() {
             return mirrored;
         }
-        V::Int::select(missing, mirror_decoded::<Self, V>(code, flips), mirrored)
+        V::Int::select(missing, self.mirror_decoded::<V>(code, flips), mirrored)
     }
 }
 
-impl<const BITS: u32> Even<BITS> {
-    const N: i32 = unorm_max(BITS / 2);
-}
-
-impl<const BITS: u32> Parallels for Even<BITS> {
-    const LAST: i32 = Self::N - 1;
-
+impl Parallels for Uniform {
     #[inline(always)]
-    fn band<V: Simd>(parallel: V::Int) -> (V::Int, V::Int) {
-        let inner = V::Int::splat(0).lt(parallel) & parallel.lt(V::Int::splat(Self::LAST));
-        let n = V::Int::splat(Self::N);
-        (parallel * n, V::Int::select(inner, n, V::Int::splat(1)))
+    fn band<V: Simd>(self, parallel: V::Int) -> (V::Int, V::Int) {
+        let inner = V::Int::splat(0).lt(parallel) & parallel.lt(self.n - 1);
+        (parallel * self.n, V::Int::select(inner, self.n, 1))
     }
 
     #[inline(always)]
-    fn find<V: Simd>(index: V::Int) -> [V::Int; 3] {
+    fn find<V: Simd>(self, index: V::Int) -> [V::Int; 3] {
         // index = high 2^h + low = high N + (high + low), with N = 2^h - 1.
-        let half = BITS / 2;
-        let n = V::Int::splat(Self::N);
-        let (high, low) = (index.low(BITS).shr(half), index.low(half));
-        let k = high + low;
-        let carry = !k.lt(n);
-        let parallel = V::Int::select(carry, high + V::Int::splat(1), high);
-        let parallel = parallel.min(V::Int::splat(Self::LAST));
-        [parallel, V::Int::select(carry, k - n, k), Self::band::<V>(parallel).1]
+        let high = index.shr_logical(self.half).low_bits(self.half);
+        let k = high + index.low_bits(self.half);
+        let carry = !k.lt(self.n);
+        let parallel = V::Int::select(carry, high + 1, high).min(self.n - 1);
+        [parallel, V::Int::select(carry, k - self.n, k), self.band::<V>(parallel).1]
     }
 }
 
-/// Where each parallel begins, with that of the one before the first, 0, and, twice, how many points
-/// there are.
-pub(crate) trait Table: 'static {
-    const BEGINS: &'static [u32];
-}
-
-include!(concat!(env!("OUT_DIR"), "/latlong_bands.rs"));
-
-impl<const BITS: u32> Parallels for Spaced<BITS>
-where
-    Self: Table,
-{
-    const LAST: i32 = Self::BEGINS.len() as i32 - 4;
-
+impl Parallels for Adaptive {
     #[inline(always)]
-    fn band<V: Simd>(parallel: V::Int) -> (V::Int, V::Int) {
-        let [_, begin, end, _] = V::gather4(Self::BEGINS, parallel);
+    fn band<V: Simd>(self, parallel: V::Int) -> (V::Int, V::Int) {
+        let [_, begin, end, _] = V::gather4(self.begins, parallel);
         (begin, end - begin)
     }
 
     #[inline(always)]
-    fn find<V: Simd>(index: V::Int) -> [V::Int; 3] {
-        let index = index.low(BITS);
+    fn find<V: Simd>(self, index: V::Int) -> [V::Int; 3] {
+        /// asin(sqrt(t)) / sqrt(t), for t up to 1/2.
+        const ASIN: [f32; 5] =
+            [1.000_004_5, 0.166_218_98, 0.081_858_44, 0.009_758_449, 0.094_634_07];
+        let index = index.low_bits(self.bits);
         // The cap above the point, or below if that is smaller, has the area share (1 - cos theta) / 2 =
         // sin^2(theta / 2) = t; theta = 2 asin sqrt t.
-        let total = const { Self::BEGINS[Self::BEGINS.len() - 1] };
-        let (middle, last) = (V::Int::splat((total / 2) as i32), V::Int::splat((total - 1) as i32));
-        let south = middle.below(index);
-        let beyond = last.below(index);
-        let points = V::Int::select(south, last - index, index);
-        let points = V::from_int(V::Int::select(beyond, V::Int::splat(0), points));
-        let t = (points + V::splat(0.5)) * V::splat((1.0 / total as f64) as f32);
-        let asin = sqrt(t)
-            * (V::splat(1.000_004_5)
-                + t * (V::splat(0.166_218_98)
-                    + t * (V::splat(0.081_858_44)
-                        + t * (V::splat(0.009_758_449) + t * V::splat(0.094_634_07)))));
-        let pole = V::splat(Self::LAST as f32);
-        let from_pole = asin * V::splat(Self::LAST as f32 * core::f32::consts::FRAC_2_PI);
-        let guess = V::select(south, pole - from_pole, from_pole).round_int();
+        let last_point = V::Int::splat(self.last_point);
+        let south = V::Int::splat(self.middle).lt_unsigned(index);
+        let beyond = last_point.lt_unsigned(index);
+        let points = V::Int::select(south, last_point - index, index);
+        let points = V::from_int(V::Int::select(beyond, 0, points));
+        let t = (points + 0.5) * self.per_point;
+        let asin = sqrt(t) * horner(t, ASIN);
+        let from_pole = asin * (self.last as f32 * core::f32::consts::FRAC_2_PI);
+        let guess = V::select(south, V::splat(self.last as f32) - from_pole, from_pole).round_int();
         // One off at most.
-        let [before, begin, end, after] = V::gather4(Self::BEGINS, guess);
-        let early = index.below(begin);
-        let late = !index.below(end) & guess.lt(V::Int::splat(Self::LAST));
-        let pick = inlined(
-            #[inline(always)]
-            |at, before, after| V::Int::select(early, before, V::Int::select(late, after, at)),
+        let [before, begin, end, after] = V::gather4(self.begins, guess);
+        let early = index.lt_unsigned(begin);
+        let late = !index.lt_unsigned(end) & guess.lt(self.last);
+        let (begin, end, parallel) = (
+            V::Int::select(early, before, V::Int::select(late, end, begin)),
+            V::Int::select(early, begin, V::Int::select(late, after, end)),
+            V::Int::select(early, guess - 1, V::Int::select(late, guess + 1, guess)),
         );
-        let one = V::Int::splat(1);
-        let parallel = pick(guess, guess - one, guess + one);
-        let (begin, end) = (pick(begin, before, end), pick(end, begin, after));
-        let count = end - begin;
-        [parallel, index - begin, count]
+        [parallel, index - begin, end - begin]
     }
 }
+
+kernels!(LatLong<Uniform>: 4 bytes, LatLong<Adaptive>: 4 bytes);

@@ -35,63 +35,85 @@
 
 use core::marker::PhantomData;
 
-use crate::formula::bits::{pack_snorm2, pack2, snorm_max, unorm_max, unpack_snorm2, unpack2};
-use crate::formula::{
-    Closest, Formula, Lattice, One, Symmetric, closest_of_four, mirror_decoded, negate_if,
-};
-use crate::simd::math;
-use crate::simd::{Each, Simd, SimdInt, inlined};
+use super::support::bits::Pair;
+use super::support::closest::{Closest, corners};
+use super::support::sign::negate_if;
+use super::{Formula, Lattice, Symmetric, kernels};
+use crate::batch::storage::Word;
+use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sqrt};
+use crate::simd::{Simd, SimdInt, Vec3, map_vec, map2, map3};
 
-/// Octahedral with the map `P` in `BITS` bits; the steps are a multiple of `MULTIPLE`.
-pub(crate) struct Oct<P, const BITS: u32, const MULTIPLE: i32 = 1>(PhantomData<P>);
+/// Octahedral with the map `P`.
+#[derive(Clone, Copy)]
+pub(crate) struct Oct<P> {
+    pair: Pair,
+    steps: Steps,
+    map: PhantomData<P>,
+}
+
+/// M, the sum of the magnitudes of a lattice point.
+#[derive(Clone, Copy)]
+pub(crate) struct Steps {
+    count: i32,
+    /// The same as a float.
+    float: f32,
+    /// 1 / M.
+    inverse: f32,
+}
+
+impl Steps {
+    pub(crate) const fn new(count: i32) -> Self {
+        Steps { count, float: count as f32, inverse: 1.0 / count as f32 }
+    }
+}
 
 /// How an octant of the sphere is mapped to a face of the octahedron.
-pub(crate) trait Projection: 'static {
-    /// The point of |v|, whose components add to `m`.
-    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3];
+pub(crate) trait Projection: Copy + Send + Sync + 'static {
+    /// The point of |v|, whose components add to M.
+    fn project<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V>;
     /// The unit vector of a point whose magnitudes add to 1.
-    fn direction<V: Simd>(p: [V; 3]) -> [V; 3];
+    fn direction<V: Simd>(p: Vec3<V>) -> Vec3<V>;
     /// The lattice point nearest to |v|: of the corners of the triangle around it.
     #[inline(always)]
-    fn nearest<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
-        let v = v.each(|c| c.abs());
-        let (base, step) = triangle_around(Self::project(v, m), m);
+    fn nearest<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V> {
+        let v = v.abs();
+        let (base, step) = triangle_around(Self::project(v, steps), steps);
         let mut closest = Closest::to(v);
         for axis in 0..3 {
             let mut q = base;
             q[axis] = q[axis] + step;
-            let decoded = Self::direction(q.each(|c| c * V::splat(1.0 / m as f32)));
-            closest.consider(V::Int::splat(axis as i32), decoded);
+            closest.consider(V::Int::from(axis as i32), Self::direction(q * steps.inverse));
         }
         let axis = closest.code();
-        [0, 1, 2].each(
-            #[inline(always)]
-            |i: usize| V::select(axis.eq(V::Int::splat(i as i32)), base[i] + step, base[i]),
-        )
+        Vec3::from(map3!([0, 1, 2], |i: usize| {
+            V::select(axis.eq(i as i32), base[i] + step, base[i])
+        }))
     }
 }
 
 /// Along the rays from the centre.
+#[derive(Clone, Copy)]
 pub(crate) struct Central;
 /// With triangles of about the same size.
+#[derive(Clone, Copy)]
 pub(crate) struct Warped;
 /// With equal areas.
+#[derive(Clone, Copy)]
 pub(crate) struct EqualArea;
 
 impl Projection for Central {
     #[inline(always)]
-    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
-        let [x, y, z] = v.each(|c| c.abs());
-        let scale = V::splat(m as f32) / (x + y + z);
-        [x * scale, y * scale, z * scale]
+    fn project<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V> {
+        let v = v.abs();
+        v * (V::splat(steps.float) / (v.x + v.y + v.z))
     }
     #[inline(always)]
-    fn direction<V: Simd>(p: [V; 3]) -> [V; 3] {
-        math::normalize(p)
+    fn direction<V: Simd>(p: Vec3<V>) -> Vec3<V> {
+        p.normalize()
     }
     #[inline(always)]
-    fn nearest<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
-        nearest_on_octahedron(Self::project(v, m), m)
+    fn nearest<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V> {
+        nearest_on_octahedron(Self::project(v, steps), steps)
     }
 }
 
@@ -99,391 +121,361 @@ impl Warped {
     /// See `examples/warp.rs`.
     const K: f32 = 0.459_265;
     const Q: f32 = -0.710_567;
+    /// About the K and Q of the inverse.
+    const INVERSE: [f32; 2] = [-0.35, 0.7];
 
     /// g(t) = t (1 + (k + q t) (1 - t)); odd.
     #[inline(always)]
     fn warp<V: Simd>(t: V, [k, q]: [f32; 2]) -> V {
         let magnitude = t.abs();
-        t * (V::splat(1.0) + (V::splat(k) + V::splat(q) * magnitude) * (V::splat(1.0) - magnitude))
+        t * ((magnitude * q + k) * (V::splat(1.0) - magnitude) + 1.0)
     }
 
     /// g'(t).
     #[inline(always)]
     fn gradient<V: Simd>(t: V) -> V {
-        V::splat(1.0 + Self::K)
-            + t * (V::splat(2.0 * (Self::Q - Self::K)) - V::splat(3.0 * Self::Q) * t)
+        t * (V::splat(2.0 * (Self::Q - Self::K)) - t * (3.0 * Self::Q)) + (1.0 + Self::K)
+    }
+
+    #[inline(always)]
+    fn warp_all<V: Simd>(p: Vec3<V>) -> Vec3<V> {
+        map_vec!(p, |t| Self::warp(t, [Self::K, Self::Q]))
     }
 }
 
 impl Projection for Warped {
     #[inline(always)]
-    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
-        let target = v.each(|c| c.abs());
-        // Its inverse about, without which two steps would not be enough for 32 bits.
-        let mut p = Central::project(v, 1).each(
-            #[inline(always)]
-            |t| Self::warp(t, [-0.35, 0.7]),
-        );
+    fn project<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V> {
+        let target = v.abs();
+        let central = target * (V::splat(1.0) / (target.x + target.y + target.z));
+        // Without a good first guess, two steps would not be enough for 32 bits.
+        let mut p = map_vec!(central, |t| Self::warp(t, Self::INVERSE));
         for _ in 0..2 {
-            let g = p.each(
-                #[inline(always)]
-                |t| Self::warp(t, [Self::K, Self::Q]),
-            );
-            let [x, y, z] = p.each(
-                #[inline(always)]
-                |t| Self::gradient(t),
-            );
-            // Each gradient's inverse, and s, of one division.
-            let (others, all) = ([y * z, z * x, x * y], x * y * z);
-            let (along, off) = (math::dot(target, others), V::splat(1.0) - (p[0] + p[1] + p[2]));
+            let g = Self::warp_all(p);
+            let Vec3 { x, y, z } = map_vec!(p, |t| Self::gradient(t));
+            // The inverse of each gradient, and s, from one division.
+            let (others, all) = (Vec3::new(y * z, z * x, x * y), x * y * z);
+            let (along, off) = (target.dot(others), V::splat(1.0) - (p.x + p.y + p.z));
             let inverse = V::splat(1.0) / (along * all);
-            let (s, per_all) =
-                ((math::dot(g, others) + off * all) * all * inverse, along * inverse);
-            p = [0, 1, 2].each(
-                #[inline(always)]
-                |i: usize| p[i] + (s * target[i] - g[i]) * (others[i] * per_all),
-            );
+            let s = (g.dot(others) + off * all) * all * inverse;
+            p = p + (target * s - g).times(others * (along * inverse));
         }
-        p.each(
-            #[inline(always)]
-            |t| t.greater(V::zero()) * V::splat(m as f32),
-        )
+        map_vec!(p, |t| t.max(0.0) * steps.float)
     }
     #[inline(always)]
-    fn direction<V: Simd>(p: [V; 3]) -> [V; 3] {
-        math::normalize(p.each(
-            #[inline(always)]
-            |t| Self::warp(t, [Self::K, Self::Q]),
-        ))
+    fn direction<V: Simd>(p: Vec3<V>) -> Vec3<V> {
+        Self::warp_all(p).normalize()
     }
 }
 
 impl Projection for EqualArea {
     #[inline(always)]
-    fn project<V: Simd>(v: [V; 3], m: i32) -> [V; 3] {
-        let [x, y, z] = math::normalize(v.each(|c| c.abs()));
+    fn project<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V> {
+        let Vec3 { x, y, z } = v.abs().normalize();
         // 1 - z, and 1 - r, without cancellation.
-        let r = math::sqrt((x * x + y * y) / (V::splat(1.0) + z));
-        let k = z / (V::splat(1.0) + r);
-        let a = math::atan2_half_turns(y, x);
-        let scale = V::splat(m as f32);
-        [r * (V::splat(1.0) - (a + a)) * scale, r * (a + a) * scale, k * scale]
+        let r = sqrt((x * x + y * y) / (z + 1.0));
+        let k = z / (r + 1.0);
+        let a = atan2_half_turns(y, x);
+        let a = a + a;
+        Vec3::new(r * (V::splat(1.0) - a), r * a, k) * steps.float
     }
     #[inline(always)]
-    fn direction<V: Simd>([x, y, z]: [V; 3]) -> [V; 3] {
-        let one = V::splat(1.0);
-        let (r, k) = (x.abs() + y.abs(), z.abs());
-        let (sin, cos) = math::sin_cos_of_one(y.abs() / r.greater(V::splat(f32::MIN_POSITIVE)));
+    fn direction<V: Simd>(p: Vec3<V>) -> Vec3<V> {
+        let Vec3 { x, y, z: k } = p.abs();
+        let r = x + y;
+        let (sin, cos) = sin_cos_of_one(y / r.max(f32::MIN_POSITIVE));
         // 2 - r^2 = 1 + z.
-        let height = k * (one + r);
-        let h = r * math::sqrt(one + height);
-        let v = [h * cos, h * sin, height];
-        math::normalize([
-            v[0].negate_where_negative(x),
-            v[1].negate_where_negative(y),
-            v[2].negate_where_negative(z),
-        ])
+        let height = k * (r + 1.0);
+        let h = r * sqrt(height + 1.0);
+        Vec3::new(h * cos, h * sin, height).negate_where_negative(p).normalize()
     }
 }
 
-impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Oct<P, BITS, MULTIPLE> {
-    const M: i32 = snorm_max(BITS / 2) / MULTIPLE * MULTIPLE;
+impl<P: Projection> Oct<P> {
+    pub(crate) const fn new(bits: u32) -> Self {
+        Self::with_multiple(bits, 1)
+    }
 
+    /// M is a multiple of `multiple`.
+    pub(crate) const fn with_multiple(bits: u32, multiple: i32) -> Self {
+        let pair = Pair::new(bits);
+        let steps = Steps::new(pair.snorm_max() / multiple * multiple);
+        Oct { pair, steps, map: PhantomData }
+    }
+
+    pub(crate) const fn steps(self) -> Steps {
+        self.steps
+    }
+
+    /// The point of the square.
     #[inline(always)]
-    fn unpack<V: Simd>(code: V::Int) -> [V::Int; 2] {
-        let params = unpack_snorm2::<BITS, V>(code);
-        if MULTIPLE == 1 {
+    fn unpack<V: Simd>(self, code: V::Int) -> [V::Int; 2] {
+        let max = self.steps.count;
+        let params = self.pair.unpack_snorm::<V>(code);
+        if max == self.pair.snorm_max() {
             return params;
         }
-        let max = V::Int::splat(Self::M);
-        params.each(|p| p.max(-max).min(max))
+        map2!(params, |p| p.clamp(-max, max))
     }
 
-    /// The lattice point, whose magnitudes add to `M`.
+    /// The lattice point, whose magnitudes add to M.
     #[inline(always)]
-    pub(crate) fn point<V: Simd>(code: V::Int) -> [V::Int; 3] {
-        unfold::<V>(Self::unpack::<V>(code), Self::M)
+    pub(crate) fn point<V: Simd>(self, code: V::Int) -> Vec3<V::Int> {
+        unfold::<V>(self.unpack::<V>(code), self.steps.count)
     }
 
-    /// Of the point whose magnitudes are `x`, `y` and what is left of `m`, rounded, in the octant of `v`.
+    /// The code of the point with magnitudes `x`, `y` and what is left of M, rounded, in the octant of
+    /// `v`.
     #[inline(always)]
-    pub(crate) fn code_of<V: Simd>([x, y]: [V; 2], v: [V; 3]) -> V::Int {
-        let max = V::splat(Self::M as f32);
+    pub(crate) fn code_of<V: Simd>(self, [x, y]: [V; 2], v: Vec3<V>) -> V::Int {
+        let max = V::splat(self.steps.float);
         // Fold the lower half over the diagonals.
-        let lower = v[2].lt(V::zero());
+        let lower = v.z.lt(0.0);
         let u = V::select(lower, max - y, x).round_int();
         let w = V::select(lower, max - x, y).round_int();
-        Self::finish([u, w], v)
-    }
-
-    /// Gives the magnitudes `u`, `w` the signs of `x`, `y`, but where a sign says nothing, plus.
-    #[inline(always)]
-    fn finish<V: Simd>([u, w]: [V::Int; 2], [x, y, _]: [V; 3]) -> V::Int {
-        let max = V::Int::splat(Self::M);
-        let zero = V::zero();
-        pack_snorm2::<BITS, V>([
-            V::Int::select(x.lt(zero) & !w.eq(max), -u, u),
-            V::Int::select(y.lt(zero) & !u.eq(max), -w, w),
+        // Copy the signs. On the border, where a sign says nothing, it is plus.
+        let border = self.steps.count;
+        self.pair.pack_snorm::<V>([
+            V::Int::select(v.x.lt(0.0) & !w.eq(border), -u, u),
+            V::Int::select(v.y.lt(0.0) & !u.eq(border), -w, w),
         ])
     }
+
+    pub(crate) const fn points_per_octant(self) -> usize {
+        triangle_len(self.steps.count)
+    }
 }
 
-impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Formula for Oct<P, BITS, MULTIPLE> {
-    type Words = One;
+impl<P: Projection> Formula for Oct<P> {
+    type Shape = Word;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        let [x, y, _] = P::project(v, Self::M);
-        Self::code_of([x, y], v)
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let p = P::project(v, self.steps);
+        self.code_of([p.x, p.y], v)
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        let [i, j, _] = P::nearest(v, Self::M);
-        Self::code_of([i, j], v)
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let p = P::nearest(v, self.steps);
+        self.code_of([p.x, p.y], v)
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        P::direction(scaled(Self::point::<V>(code), Self::M))
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        P::direction(Vec3::from_int(self.point::<V>(code)) * self.steps.inverse)
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        let point = plus_on_border::<V>(Self::unpack::<V>(code), Self::M);
-        pack_snorm2::<BITS, V>(point)
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
-        let [u, w] = Self::unpack::<V>(code);
+    fn mirror<V: Simd>(self, code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
+        let [u, w] = self.unpack::<V>(code);
         let point = [negate_if(u, x), negate_if(w, y)];
-        let point = if z { across_equator::<V>(point, Self::M) } else { point };
-        pack_snorm2::<BITS, V>(plus_on_border::<V>(point, Self::M))
+        let point = if z { across_equator::<V>(point, self.steps.count) } else { point };
+        self.pair.pack_snorm::<V>(plus_on_border::<V>(point, self.steps.count))
     }
 }
 
-impl<const BITS: u32, const MULTIPLE: i32> Lattice for Oct<Central, BITS, MULTIPLE> {
+impl Lattice for Oct<Central> {
     #[inline(always)]
-    fn encode_one_of<V: Simd>(v: [V; 3], t: V) -> V::Int {
-        let p = Central::project(v, Self::M);
-        let (base, step) = triangle_around(p, Self::M);
-        // Of the corner whose coordinate `axis` is a step off, the part that it has in p, times its length,
-        // which decoding divides by.
-        let [a, b, c] = [0, 1, 2].each(
-            #[inline(always)]
-            |axis: usize| {
-                let mut corner = base;
-                corner[axis] = corner[axis] + step;
-                (p[axis] - base[axis]) * step * math::sqrt(math::length_squared(corner))
-            },
-        );
+    fn encode_stochastic<V: Simd>(self, v: Vec3<V>, t: V) -> V::Int {
+        let p = Central::project(v, self.steps);
+        let (base, step) = triangle_around(p, self.steps);
+        // The weight of the corner whose coordinate `axis` is a step off: the part that it has in p, times
+        // its length, which decoding divides by.
+        let [a, b, c] = map3!([0, 1, 2], |axis: usize| {
+            let mut corner = base;
+            corner[axis] = corner[axis] + step;
+            (p[axis] - base[axis]) * step * sqrt(corner.length_squared())
+        });
         let t = t * (a + b + c);
         let (first, second) = (t.lt(a), t.lt(a + b));
-        let zero = V::zero();
-        let steps = [V::select(first, step, zero), V::select(second & !first, step, zero)];
-        Self::code_of([base[0] + steps[0], base[1] + steps[1]], v)
+        let [x, y] = [V::select(first, step, 0.0), V::select(second & !first, step, 0.0)];
+        self.code_of([base.x + x, base.y + y], v)
     }
 }
 
-impl<P: Projection, const BITS: u32, const MULTIPLE: i32> Symmetric for Oct<P, BITS, MULTIPLE> {
-    const ENTRIES: usize = triangle_len(Self::M);
-
+impl<P: Projection> Symmetric for Oct<P> {
     #[inline(always)]
-    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
-        let (max, zero) = (V::Int::splat(Self::M), V::Int::splat(0));
-        let [u, w] = Self::unpack::<V>(code);
+    fn octant_index<V: Simd>(self, code: V::Int) -> (V::Int, Vec3<V::Mask>) {
+        let max = V::Int::splat(self.steps.count);
+        let zero = V::Int::splat(0);
+        let [u, w] = self.unpack::<V>(code);
         let (i, j) = (u.abs(), w.abs());
         let lower = max.lt(i + j);
         let (i, j) = (V::Int::select(lower, max - j, i), V::Int::select(lower, max - i, j));
-        let flips = [u.lt(zero) & zero.lt(i), w.lt(zero) & zero.lt(j), lower];
+        let flips = Vec3::new(u.lt(0) & zero.lt(i), w.lt(0) & zero.lt(j), lower);
         (triangle_index::<V>(i, j), flips)
     }
 }
 
-/// How many points (i, j) with i + j <= m there are.
+/// Number of points (i, j) with i + j <= m.
 pub(crate) const fn triangle_len(m: i32) -> usize {
     (m as usize + 1) * (m as usize + 2) / 2
 }
 
-/// The number of a point (i, j), counted by i + j.
+/// Number of the point (i, j), in the order of i + j.
 #[inline(always)]
 pub(crate) fn triangle_index<V: Simd>(i: V::Int, j: V::Int) -> V::Int {
     let n = i + j;
-    (n * (n + V::Int::splat(1))).shr(1) + j
+    (n * (n + 1)).shr_logical(1) + j
 }
 
-/// The point of the octahedron, whose magnitudes add to 1, of a lattice point.
+/// The lattice point, whose magnitudes add to m, of a point of the square from -m to m.
 #[inline(always)]
-fn scaled<V: Simd>(p: [V::Int; 3], m: i32) -> [V; 3] {
-    p.each(
-        #[inline(always)]
-        |c| V::from_int(c) * V::splat(1.0 / m as f32),
-    )
-}
-
-/// The lattice point, whose magnitudes add to m, of one of the square from -m to m.
-#[inline(always)]
-fn unfold<V: Simd>([u, w]: [V::Int; 2], m: i32) -> [V::Int; 3] {
-    let (max, zero) = (V::Int::splat(m), V::Int::splat(0));
+fn unfold<V: Simd>([u, w]: [V::Int; 2], m: i32) -> Vec3<V::Int> {
     let (i, j) = (u.abs(), w.abs());
-    let (left_i, left_j) = (max - j, max - i);
-    let copy_sign = inlined(
-        #[inline(always)]
-        |magnitude: V::Int, sign: V::Int| V::Int::select(sign.lt(zero), -magnitude, magnitude),
-    );
-    // Below the diagonals, where more is left over than is there, fold back.
-    [copy_sign(i.min(left_i), u), copy_sign(j.min(left_j), w), left_i - i]
+    let (left_i, left_j) = (V::Int::splat(m) - j, V::Int::splat(m) - i);
+    // Below the diagonals, where the other coordinate leaves less than there is, fold back.
+    let (x, y) = (i.min(left_i), j.min(left_j));
+    Vec3::new(x.negate_where_negative(u), y.negate_where_negative(w), left_i - i)
 }
 
-/// The point of the square from -m to m whose z is the opposite: its mirror image in the diagonal of its quarter.
+/// The point of the square with the opposite z: its mirror image in the diagonal of its quarter.
 #[inline(always)]
 fn across_equator<V: Simd>([u, w]: [V::Int; 2], m: i32) -> [V::Int; 2] {
-    let (max, zero) = (V::Int::splat(m), V::Int::splat(0));
-    let (i, j) = (max - w.abs(), max - u.abs());
-    [V::Int::select(u.lt(zero), -i, i), V::Int::select(w.lt(zero), -j, j)]
+    let (i, j) = (V::Int::splat(m) - w.abs(), V::Int::splat(m) - u.abs());
+    [i.negate_where_negative(u), j.negate_where_negative(w)]
 }
 
-/// The canonical one of a point of the square from -m to m and its mirror image on the border.
+/// The canonical one of a point of the square and its mirror image on the border.
 #[inline(always)]
 fn plus_on_border<V: Simd>([u, w]: [V::Int; 2], m: i32) -> [V::Int; 2] {
-    let max = V::Int::splat(m);
     let (au, aw) = (u.abs(), w.abs());
-    [V::Int::select(aw.eq(max), au, u), V::Int::select(au.eq(max), aw, w)]
+    [V::Int::select(aw.eq(m), au, u), V::Int::select(au.eq(m), aw, w)]
 }
 
-/// Octahedral in biased unorm, (c + 1) / 2, of `BITS / 2` bits each: the odd numbers from -m to m =
-/// 2^(BITS/2) - 1. It has no zero, so of the axes only -Z, a corner of the square, survives.
+/// The triangle of the lattice i + j + k = M around `p`, whose components are >= 0 and add to M: a
+/// point, and the step that leads to a corner when added to one of its components.
+#[inline(always)]
+pub(crate) fn triangle_around<V: Simd>(p: Vec3<V>, steps: Steps) -> (Vec3<V>, V) {
+    let max = V::splat(steps.float);
+    let floor = p.floor();
+    // M is one or two above the sum of the floors.
+    let short = max - floor.x - floor.y - floor.z;
+    let down = V::splat(1.5).lt(short);
+    let base = map_vec!(floor, |c| V::select(down, c + 1.0, c));
+    (base, max - base.x - base.y - base.z)
+}
+
+/// The lattice point i + j + k = M of an octant that is nearest in angle to `p`, whose components are
+/// >= 0 and add to M.
+#[inline(always)]
+pub(crate) fn nearest_on_octahedron<V: Simd>(p: Vec3<V>, steps: Steps) -> Vec3<V> {
+    /// A lattice point q, its |d x p|^2 with q = p + d, and |q|^2.
+    #[derive(Clone, Copy)]
+    struct Corner<V> {
+        point: Vec3<V>,
+        off: V,
+        length_squared: V,
+    }
+    let (base, step) = triangle_around(p, steps);
+    let pp = p.length_squared();
+    let [mut nearest, second, third] = map3!([0, 1, 2], |axis: usize| {
+        let mut point = base;
+        point[axis] = point[axis] + step;
+        let d = point - p;
+        let along = p.dot(d);
+        let off = d.length_squared() * pp - along * along;
+        Corner { point, off, length_squared: point.length_squared() }
+    });
+    // The squared sine of the angle is off / (|p|^2 |q|^2).
+    for corner in [second, third] {
+        let closer = (corner.off * nearest.length_squared).lt(nearest.off * corner.length_squared);
+        nearest = Corner {
+            point: Vec3::select(closer, corner.point, nearest.point),
+            off: V::select(closer, corner.off, nearest.off),
+            length_squared: V::select(closer, corner.length_squared, nearest.length_squared),
+        };
+    }
+    nearest.point
+}
+
+/// Octahedral in biased unorm, (c + 1) / 2: the odd numbers from -M to M = 2^(BITS/2) - 1. It has no
+/// zero, so of the axes only -Z, a corner of the square, survives.
 ///
 /// Source: Narkowicz, "Octahedron Normal Vector Encoding", 2014.
-pub(crate) struct OctUnorm<const BITS: u32>;
+#[derive(Clone, Copy)]
+pub(crate) struct OctUnorm {
+    pair: Pair,
+    steps: Steps,
+}
 
-impl<const BITS: u32> OctUnorm<BITS> {
-    const M: i32 = unorm_max(BITS / 2);
+impl OctUnorm {
+    pub(crate) const fn new(bits: u32) -> Self {
+        let pair = Pair::new(bits);
+        OctUnorm { pair, steps: Steps::new(pair.unorm_max()) }
+    }
 
-    /// The two parameters as indices from 0 to m.
+    /// The two parameters as indices from 0 to M.
     #[inline(always)]
-    fn params<V: Simd>(v: [V; 3]) -> [V; 2] {
-        let [x, y, z] = v.each(|c| c.abs());
-        let half = V::splat(0.5 * Self::M as f32);
+    fn params<V: Simd>(self, v: Vec3<V>) -> [V; 2] {
+        let half = V::splat(0.5 * self.steps.float);
+        let Vec3 { x, y, z } = v.abs();
         let scale = half / (x + y + z);
         let (x, y) = (x * scale, y * scale);
-        let lower = v[2].lt(V::zero());
-        let u = V::select(lower, half - y, x).negate_where_negative(v[0]);
-        let w = V::select(lower, half - x, y).negate_where_negative(v[1]);
+        // Fold the lower half over the diagonals.
+        let lower = v.z.lt(0.0);
+        let u = V::select(lower, half - y, x).negate_where_negative(v.x);
+        let w = V::select(lower, half - x, y).negate_where_negative(v.y);
         [u + half, w + half]
     }
 
-    /// The nearest point of the square, canonical.
+    /// The point of the square nearest to two indices, canonical.
     #[inline(always)]
-    fn canonical_point<V: Simd>(indices: [V::Int; 2]) -> [V::Int; 2] {
-        let max = V::Int::splat(Self::M);
-        plus_on_border::<V>(indices.each(|i| (i + i - max).max(-max).min(max)), Self::M)
+    fn canonical_point<V: Simd>(self, indices: [V::Int; 2]) -> [V::Int; 2] {
+        let max = self.steps.count;
+        plus_on_border::<V>(map2!(indices, |i| (i + i - max).clamp(-max, max)), max)
     }
 
     #[inline(always)]
-    fn pack<V: Simd>(point: [V::Int; 2]) -> V::Int {
-        pack2::<BITS, V>(point.each(|i| (i + V::Int::splat(Self::M)).sar(1)))
+    fn vector<V: Simd>(self, point: [V::Int; 2]) -> Vec3<V> {
+        let p = Vec3::from_int(unfold::<V>(point, self.steps.count)) * self.steps.inverse;
+        p.normalize()
+    }
+
+    #[inline(always)]
+    fn pack<V: Simd>(self, point: [V::Int; 2]) -> V::Int {
+        self.pair.pack::<V>(map2!(point, |i| (i + self.steps.count).shr_arithmetic(1)))
     }
 }
 
-impl<const BITS: u32> Formula for OctUnorm<BITS> {
-    type Words = One;
+impl Formula for OctUnorm {
+    type Shape = Word;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        let indices = Self::params(v).each(|p| p.round_int());
-        Self::pack::<V>(Self::canonical_point::<V>(indices))
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let indices = map2!(self.params(v), |p| p.round_int());
+        self.pack::<V>(self.canonical_point::<V>(indices))
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        closest_of_four(
-            v,
-            Self::params(v),
-            #[inline(always)]
-            |indices| {
-                let point = Self::canonical_point::<V>(indices);
-                let p = scaled(unfold::<V>(point, Self::M), Self::M);
-                (Self::pack::<V>(point), Central::direction(p))
-            },
-        )
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let mut closest = Closest::to(v);
+        for indices in corners(self.params(v)) {
+            let point = self.canonical_point::<V>(indices);
+            closest.consider(self.pack::<V>(point), self.vector(point));
+        }
+        closest.code()
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        let max = V::Int::splat(Self::M);
-        let point = unpack2::<BITS, V>(code).each(|i| i + i - max);
-        Central::direction(scaled(unfold::<V>(point, Self::M), Self::M))
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        let max = self.steps.count;
+        self.vector(map2!(self.pair.unpack::<V>(code), |i| i + i - max))
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        Self::pack::<V>(Self::canonical_point::<V>(unpack2::<BITS, V>(code)))
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
         let [x, y, z] = flips;
         if z {
             // Odd numbers, folded over the diagonals, are even.
-            return mirror_decoded::<Self, V>(code, flips);
+            return self.mirror_decoded::<V>(code, flips);
         }
-        let [u, w] = unpack2::<BITS, V>(code);
-        let index = inlined(
-            #[inline(always)]
-            |i: V::Int, flip: bool| if flip { V::Int::splat(Self::M) - i } else { i },
-        );
-        Self::pack::<V>(Self::canonical_point::<V>([index(u, x), index(w, y)]))
+        let [u, w] = self.pair.unpack::<V>(code);
+        let max = V::Int::splat(self.steps.count);
+        let indices = [if x { max - u } else { u }, if y { max - w } else { w }];
+        self.pack::<V>(self.canonical_point::<V>(indices))
     }
 }
 
-/// The triangle of the lattice i + j + k = m that `p` lies in, whose components are >= 0 and add to m:
-/// a point, and what has to be added to one component or another for its corners.
-#[inline(always)]
-pub(crate) fn triangle_around<V: Simd>(p: [V; 3], m: i32) -> ([V; 3], V) {
-    let max = V::splat(m as f32);
-    let one = V::splat(1.0);
-    let floor = p.each(
-        #[inline(always)]
-        |c| c.floor(),
-    );
-    // One short of M above the floors, or two.
-    let short = max - floor[0] - floor[1] - floor[2];
-    let down = V::splat(1.5).lt(short);
-    let base = floor.each(|c| V::select(down, c + one, c));
-    (base, max - base[0] - base[1] - base[2])
-}
-
-/// Of the lattice points i + j + k = m of an octant, the one nearest in angle to `p`, whose
-/// components are >= 0 and add to m.
-#[inline(always)]
-pub(crate) fn nearest_on_octahedron<V: Simd>(p: [V; 3], m: i32) -> [V; 3] {
-    let (base, step) = triangle_around(p, m);
-    // Least squared sine of the angle, |d x p|^2 / (|p|^2 |q|^2), q = p + d.
-    let pp = math::length_squared(p);
-    let corner = inlined(
-        #[inline(always)]
-        |axis: usize| {
-            let mut q = base;
-            q[axis] = q[axis] + step;
-            let d = [q[0] - p[0], q[1] - p[1], q[2] - p[2]];
-            let along = math::dot(p, d);
-            let off = math::length_squared(d) * pp - along * along;
-            (q, off, math::length_squared(q))
-        },
-    );
-    let closer = inlined(
-        #[inline(always)]
-        |a: ([V; 3], V, V), b: ([V; 3], V, V)| {
-            let b_wins = (b.1 * a.2).lt(a.1 * b.2);
-            let pick = inlined(
-                #[inline(always)]
-                |a, b| V::select(b_wins, b, a),
-            );
-            let q = [0, 1, 2].each(|i: usize| pick(a.0[i], b.0[i]));
-            (q, pick(a.1, b.1), pick(a.2, b.2))
-        },
-    );
-    closer(closer(corner(0), corner(1)), corner(2)).0
-}
+kernels!(Oct<Central>: 4 bytes, Oct<Warped>: 4 bytes, Oct<EqualArea>: 4 bytes, OctUnorm: 4 bytes);

@@ -15,115 +15,108 @@
 //!
 //! Source: Baptista, "Higher Accuracy Quantized Normals", GameDev.net, 2000.
 
-use crate::formula::oct::{nearest_on_octahedron, triangle_index, triangle_len};
-use crate::formula::{Formula, One, Symmetric, not_if};
-use crate::simd::math::normalize;
-use crate::simd::{Each, Simd, SimdInt, inlined};
+use super::oct::{Central, Projection, Steps, nearest_on_octahedron, triangle_index, triangle_len};
+use super::support::sign::not_if;
+use super::{Formula, Symmetric, kernels};
+use crate::batch::storage::Word;
+use crate::simd::{Simd, SimdInt, Vec3, map_vec};
 
 /// Baptista's 16 bits.
+#[derive(Clone, Copy)]
 pub(crate) struct Octant;
 
 const M: i32 = 126;
+const STEPS: Steps = Steps::new(M);
 
 impl Octant {
-    #[inline(always)]
-    fn project<V: Simd>(v: [V; 3]) -> [V; 3] {
-        let [x, y, z] = v.each(|c| c.abs());
-        let scale = V::splat(M as f32) / (x + y + z);
-        [x * scale, y * scale, z * scale]
+    pub(crate) const fn new() -> Self {
+        Octant
     }
 
     #[inline(always)]
-    fn pack<V: Simd>([i, j]: [V::Int; 2], negative: [V::Mask; 3]) -> V::Int {
+    fn pack<V: Simd>(i: V::Int, j: V::Int, negative: Vec3<V::Mask>) -> V::Int {
         let zero = V::Int::splat(0);
         let k = V::Int::splat(M) - i - j;
         // Zero has no sign.
-        let sign = inlined(
-            #[inline(always)]
-            |negative: V::Mask, magnitude: V::Int, bit: u32| {
-                V::Int::select(negative & zero.lt(magnitude), V::Int::splat(1 << bit), zero)
-            },
-        );
-        let [x, y, z] = negative;
-        let signs = sign(x, i, 15) | sign(y, j, 14) | sign(z, k, 13);
-        let fold = V::Int::splat(63).lt(i);
-        let [i, j] = [i, j].each(|c| V::Int::select(fold, V::Int::splat(127) - c, c));
-        signs | i.shl(7) | j
+        let x = V::Int::select(negative.x & zero.lt(i), 1 << 15, 0);
+        let y = V::Int::select(negative.y & zero.lt(j), 1 << 14, 0);
+        let z = V::Int::select(negative.z & zero.lt(k), 1 << 13, 0);
+        let (i, j) = Self::fold::<V>(i, j, V::Int::splat(63).lt(i));
+        x | y | z | i.shl(7) | j
+    }
+
+    /// (127 - i, 127 - j) in some lanes.
+    #[inline(always)]
+    fn fold<V: Simd>(i: V::Int, j: V::Int, folds: V::Mask) -> (V::Int, V::Int) {
+        let last = V::Int::splat(127);
+        (V::Int::select(folds, last - i, i), V::Int::select(folds, last - j, j))
     }
 
     /// Which of the three sign bits are set.
     #[inline(always)]
-    fn negative<V: Simd>(code: V::Int) -> [V::Mask; 3] {
-        [15, 14, 13].each(|bit| code.shr(bit).low(1).eq(V::Int::splat(1)))
+    fn negative<V: Simd>(code: V::Int) -> Vec3<V::Mask> {
+        map_vec!(Vec3::new(15, 14, 13), |bit| code.shr_logical(bit).low_bits(1).eq(1))
     }
 
     #[inline(always)]
-    fn magnitudes<V: Simd>(code: V::Int) -> [V::Int; 3] {
-        let (i, j) = (code.shr(7).low(6), code.low(7));
-        let fold = !(i + j).lt(V::Int::splat(127));
-        let [i, j] = [i, j].each(|c| V::Int::select(fold, V::Int::splat(127) - c, c));
+    fn magnitudes<V: Simd>(code: V::Int) -> Vec3<V::Int> {
+        let (i, j) = (code.shr_logical(7).low_bits(6), code.low_bits(7));
+        let (i, j) = Self::fold::<V>(i, j, !(i + j).lt(127));
         let unused = V::Int::splat(M).lt(i + j);
-        let i = V::Int::select(unused, i - V::Int::splat(1), i);
-        let k = V::Int::splat(M) - i - j;
-        [i, j, k]
+        let i = V::Int::select(unused, i - 1, i);
+        Vec3::new(i, j, V::Int::splat(M) - i - j)
+    }
+
+    pub(crate) const fn points_per_octant(self) -> usize {
+        triangle_len(M)
     }
 }
 
 impl Formula for Octant {
-    type Words = One;
+    type Shape = Word;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        let [i, j, _] = Self::project(v).each(
-            #[inline(always)]
-            |c| c.floor().round_int(),
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let p = Central::project(v, STEPS).floor().round_int();
+        Self::pack::<V>(p.x, p.y, v.is_negative())
+    }
+
+    #[inline(always)]
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let p = nearest_on_octahedron(Central::project(v, STEPS), STEPS).round_int();
+        Self::pack::<V>(p.x, p.y, v.is_negative())
+    }
+
+    #[inline(always)]
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        let magnitudes = Self::magnitudes::<V>(code);
+        let signs = map_vec!(Vec3::new(15, 14, 13), |bit| code.shl(31 - bit).shr_arithmetic(31));
+        let point = Vec3::new(
+            (magnitudes.x ^ signs.x) - signs.x,
+            (magnitudes.y ^ signs.y) - signs.y,
+            (magnitudes.z ^ signs.z) - signs.z,
         );
-        Self::pack::<V>([i, j], v.each(|c| c.lt(V::zero())))
+        (Vec3::from_int(point) * (1.0 / M as f32)).normalize()
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        let [i, j, _] = nearest_on_octahedron(Self::project(v), M).each(|c| c.round_int());
-        Self::pack::<V>([i, j], v.each(|c| c.lt(V::zero())))
-    }
-
-    #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        let [i, j, k] = Self::magnitudes::<V>(code);
-        let signed = inlined(
-            #[inline(always)]
-            |magnitude: V::Int, bit: u32| {
-                let s = code.shl(31 - bit).sar(31);
-                V::from_int((magnitude ^ s) - s) * V::splat(1.0 / M as f32)
-            },
-        );
-        normalize([signed(i, 15), signed(j, 14), signed(k, 13)])
-    }
-
-    #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        let [i, j, _] = Self::magnitudes::<V>(code);
-        Self::pack::<V>([i, j], Self::negative::<V>(code))
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
-        let [i, j, _] = Self::magnitudes::<V>(code);
-        let [x, y, z] = Self::negative::<V>(code);
-        let negative =
-            [not_if::<V>(x, flips[0]), not_if::<V>(y, flips[1]), not_if::<V>(z, flips[2])];
-        Self::pack::<V>([i, j], negative)
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
+        let Vec3 { x: i, y: j, .. } = Self::magnitudes::<V>(code);
+        let Vec3 { x, y, z } = Self::negative::<V>(code);
+        let negative = Vec3::new(not_if(x, flips[0]), not_if(y, flips[1]), not_if(z, flips[2]));
+        Self::pack::<V>(i, j, negative)
     }
 }
 
 impl Symmetric for Octant {
-    const ENTRIES: usize = triangle_len(M);
-
     #[inline(always)]
-    fn fold<V: Simd>(code: V::Int) -> (V::Int, [V::Mask; 3]) {
+    fn octant_index<V: Simd>(self, code: V::Int) -> (V::Int, Vec3<V::Mask>) {
         let zero = V::Int::splat(0);
-        let [i, j, k] = Self::magnitudes::<V>(code);
-        let [x, y, z] = Self::negative::<V>(code);
-        (triangle_index::<V>(i, j), [x & zero.lt(i), y & zero.lt(j), z & zero.lt(k)])
+        let Vec3 { x: i, y: j, z: k } = Self::magnitudes::<V>(code);
+        let Vec3 { x, y, z } = Self::negative::<V>(code);
+        let flips = Vec3::new(x & zero.lt(i), y & zero.lt(j), z & zero.lt(k));
+        (triangle_index::<V>(i, j), flips)
     }
 }
+
+kernels!(Octant: 2 bytes);

@@ -10,92 +10,95 @@
 //!
 //! Source: Narkowicz, "Octahedron Normal Vector Encoding", 2014 (spherical coordinates).
 
-use crate::formula::bits::{pack2, unorm_max, unpack2};
-use crate::formula::{Formula, One, closest_of_four, mirror_decoded};
-use crate::simd::math::{atan2_half_turns, normalize, sin_cos_quarter_turns, sqrt};
-use crate::simd::{Each, Simd, SimdInt};
+use super::support::bits::Pair;
+use super::support::closest::{Closest, corners};
+use super::{Formula, kernels};
+use crate::batch::storage::Word;
+use crate::simd::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
+use crate::simd::{Simd, SimdInt, Vec3, map2};
 
-/// Phi-z in `BITS` bits.
-pub(crate) struct PhiZ<const BITS: u32>;
+/// Phi-z.
+#[derive(Clone, Copy)]
+pub(crate) struct PhiZ {
+    pair: Pair,
+    max: i32,
+    half: f32,
+    step: f32,
+}
 
-impl<const BITS: u32> PhiZ<BITS> {
-    const M: i32 = unorm_max(BITS / 2);
+impl PhiZ {
+    pub(crate) const fn new(bits: u32) -> Self {
+        let pair = Pair::new(bits);
+        let max = pair.unorm_max();
+        PhiZ { pair, max, half: 0.5 * max as f32, step: 1.0 / max as f32 }
+    }
 
     /// The two parameters, scaled to M.
     #[inline(always)]
-    fn params<V: Simd>(v: [V; 3]) -> [V; 2] {
-        let [x, y, z] = normalize(v);
-        let half = V::splat(0.5 * Self::M as f32);
-        [atan2_half_turns(y, x) * half + half, z * half + half]
+    fn params<V: Simd>(self, v: Vec3<V>) -> [V; 2] {
+        let Vec3 { x, y, z } = v.normalize();
+        [atan2_half_turns(y, x) * self.half + self.half, z * self.half + self.half]
     }
 
-    /// The nearest in range, canonical.
+    /// The nearest parameters in range, canonical.
     #[inline(always)]
-    fn canonical_params<V: Simd>([phi, z]: [V::Int; 2]) -> [V::Int; 2] {
-        let (zero, max) = (V::Int::splat(0), V::Int::splat(Self::M));
-        let z = z.max(zero).min(max);
+    fn canonical_params<V: Simd>(self, [phi, z]: [V::Int; 2]) -> [V::Int; 2] {
+        let z = z.clamp(0, self.max);
         // The seam: 0 is the same as M, and one step below is one step back from M. None is above M.
-        let phi = V::Int::select(zero.lt(phi), phi, phi + max);
-        let pole = z.eq(zero) | z.eq(max);
-        [V::Int::select(pole, V::Int::splat(Self::M / 2 + 1), phi), z]
+        let phi = V::Int::select(V::Int::splat(0).lt(phi), phi, phi + self.max);
+        let pole = z.eq(0) | z.eq(self.max);
+        [V::Int::select(pole, self.max / 2 + 1, phi), z]
     }
 
     #[inline(always)]
-    fn vector<V: Simd>(params: [V::Int; 2]) -> [V; 3] {
-        let max = V::Int::splat(Self::M);
-        let [phi, z] = params.each(|i| i + i - max);
-        let step = V::splat(1.0 / Self::M as f32);
-        let (sin, cos) = sin_cos_quarter_turns(V::from_int(phi) * (step + step));
+    fn vector<V: Simd>(self, params: [V::Int; 2]) -> Vec3<V> {
+        let max = V::Int::splat(self.max);
+        let [phi, z] = map2!(params, |i| i + i - self.max);
+        let (sin, cos) = sin_cos_quarter_turns(V::from_int(phi) * (self.step + self.step));
         // 1 - z^2, without cancellation.
-        let rr = (V::from_int(max - z) * step) * (V::from_int(max + z) * step);
+        let rr = (V::from_int(max - z) * self.step) * (V::from_int(max + z) * self.step);
         let r = sqrt(rr);
         // The roundings of root, sine and cosine together may put the length off by more than 2.5e-7.
-        normalize([r * cos, r * sin, V::from_int(z) * step])
+        Vec3::new(r * cos, r * sin, V::from_int(z) * self.step).normalize()
     }
 }
 
-impl<const BITS: u32> Formula for PhiZ<BITS> {
-    type Words = One;
+impl Formula for PhiZ {
+    type Shape = Word;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        let params = Self::params(v).each(|p| p.round_int());
-        pack2::<BITS, V>(Self::canonical_params::<V>(params))
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let params = map2!(self.params(v), |p| p.round_int());
+        self.pair.pack::<V>(self.canonical_params::<V>(params))
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        closest_of_four(
-            v,
-            Self::params(v),
-            #[inline(always)]
-            |params| {
-                let params = Self::canonical_params::<V>(params);
-                (pack2::<BITS, V>(params), Self::vector::<V>(params))
-            },
-        )
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let mut closest = Closest::to(v);
+        for params in corners(self.params(v)) {
+            let params = self.canonical_params::<V>(params);
+            closest.consider(self.pair.pack::<V>(params), self.vector(params));
+        }
+        closest.code()
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        Self::vector::<V>(unpack2::<BITS, V>(code))
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        self.vector(self.pair.unpack::<V>(code))
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        pack2::<BITS, V>(Self::canonical_params::<V>(unpack2::<BITS, V>(code)))
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, flips: [bool; 3]) -> V::Int {
+    fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
         if flips[0] {
             // Half a turn is no whole number of steps.
-            return mirror_decoded::<Self, V>(code, flips);
+            return self.mirror_decoded::<V>(code, flips);
         }
-        let max = V::Int::splat(Self::M);
-        let [phi, z] = unpack2::<BITS, V>(code);
+        let max = V::Int::splat(self.max);
+        let [phi, z] = self.pair.unpack::<V>(code);
         let phi = if flips[1] { max - phi } else { phi };
         let z = if flips[2] { max - z } else { z };
-        pack2::<BITS, V>(Self::canonical_params::<V>([phi, z]))
+        self.pair.pack::<V>(self.canonical_params::<V>([phi, z]))
     }
 }
+
+kernels!(PhiZ: 4 bytes);

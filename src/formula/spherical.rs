@@ -12,81 +12,81 @@
 //! 2014. The angle of a vector near a pole comes from atan2, where acos(z) would lose half its
 //! digits.
 
-use crate::formula::bits::{pack_snorm2, snorm_max, unpack_snorm2};
-use crate::formula::{Formula, One, closest_of_four, negate_if};
+use super::support::bits::Pair;
+use super::support::closest::{Closest, corners};
+use super::support::sign::negate_if;
+use super::{Formula, kernels};
+use crate::batch::storage::Word;
 use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sin_cos_quarter_turns, sqrt};
-use crate::simd::{Each, Simd, SimdInt};
+use crate::simd::{Simd, SimdInt, Vec3, map2};
 
-/// Spherical in `BITS` bits.
-pub(crate) struct Spherical<const BITS: u32>;
+/// Spherical.
+#[derive(Clone, Copy)]
+pub(crate) struct Spherical {
+    pair: Pair,
+    max: i32,
+    max_float: f32,
+    step: f32,
+}
 
-impl<const BITS: u32> Spherical<BITS> {
-    const M: i32 = snorm_max(BITS / 2);
+impl Spherical {
+    pub(crate) const fn new(bits: u32) -> Self {
+        let pair = Pair::new(bits);
+        let max = pair.snorm_max();
+        Spherical { pair, max, max_float: max as f32, step: 1.0 / max as f32 }
+    }
 
     /// The two parameters, scaled to M.
     #[inline(always)]
-    fn angles<V: Simd>([x, y, z]: [V; 3]) -> [V; 2] {
-        let max = V::splat(Self::M as f32);
+    fn angles<V: Simd>(self, Vec3 { x, y, z }: Vec3<V>) -> [V; 2] {
         let theta = atan2_half_turns(sqrt(x * x + y * y), z);
         let phi = atan2_half_turns(y, x);
-        [(theta + theta - V::splat(1.0)) * max, phi * max]
+        [(theta + theta - 1.0) * self.max_float, phi * self.max_float]
     }
 
     #[inline(always)]
-    fn pack<V: Simd>([u, w]: [V::Int; 2]) -> V::Int {
-        let max = V::Int::splat(Self::M);
-        let pole = u.abs().eq(max);
+    fn pack<V: Simd>(self, [u, w]: [V::Int; 2]) -> V::Int {
+        let pole = u.abs().eq(self.max);
         // The seam: -M is +M, and one step beyond is one step back from +M. None is above +M.
-        let w = V::Int::select((-max).lt(w), w, w + max + max);
-        let w = V::Int::select(pole, V::Int::splat(0), w);
-        pack_snorm2::<BITS, V>([u, w])
+        let w = V::Int::select(V::Int::splat(-self.max).lt(w), w, w + self.max + self.max);
+        self.pair.pack_snorm::<V>([u, V::Int::select(pole, 0, w)])
     }
 }
 
-impl<const BITS: u32> Formula for Spherical<BITS> {
-    type Words = One;
+impl Formula for Spherical {
+    type Shape = Word;
 
     #[inline(always)]
-    fn encode<V: Simd>(v: [V; 3]) -> V::Int {
-        Self::pack::<V>(Self::angles(v).each(|p| p.round_int()))
+    fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        self.pack::<V>(map2!(self.angles(v), |p| p.round_int()))
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(v: [V; 3]) -> V::Int {
-        let max = V::Int::splat(Self::M);
-        closest_of_four(
-            v,
-            Self::angles(v),
-            #[inline(always)]
-            |[u, w]| {
-                let code = Self::pack::<V>([u.max(-max).min(max), w]);
-                (code, Self::decode::<V>(code))
-            },
-        )
+    fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
+        let mut closest = Closest::to(v);
+        for [u, w] in corners(self.angles(v)) {
+            let code = self.pack::<V>([u.clamp(-self.max, self.max), w]);
+            closest.consider(code, self.decode::<V>(code));
+        }
+        closest.code()
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: V::Int) -> [V; 3] {
-        let [u, w] = unpack_snorm2::<BITS, V>(code);
-        let step = 1.0 / Self::M as f32;
-        let (sin_u, cos_u) = sin_cos_of_one(V::from_int(u) * V::splat(step));
-        let (sin_phi, cos_phi) = sin_cos_quarter_turns(V::from_int(w) * V::splat(2.0 * step));
-        [cos_u * cos_phi, cos_u * sin_phi, -sin_u]
+    fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
+        let [u, w] = self.pair.unpack_snorm::<V>(code);
+        let (sin_u, cos_u) = sin_cos_of_one(V::from_int(u) * self.step);
+        let (sin_phi, cos_phi) = sin_cos_quarter_turns(V::from_int(w) * (2.0 * self.step));
+        Vec3::new(cos_u * cos_phi, cos_u * sin_phi, -sin_u)
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: V::Int) -> V::Int {
-        Self::pack::<V>(unpack_snorm2::<BITS, V>(code))
-    }
-
-    #[inline(always)]
-    fn mirror<V: Simd>(code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
-        let [u, w] = unpack_snorm2::<BITS, V>(code);
+    fn mirror<V: Simd>(self, code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
+        let [u, w] = self.pair.unpack_snorm::<V>(code);
         let w = negate_if(w, y);
         // Half a turn less the azimuth.
-        let max = V::Int::splat(Self::M);
-        let half = V::Int::select(w.lt(V::Int::splat(0)), -max, max);
-        let w = if x { half - w } else { w };
-        Self::pack::<V>([negate_if(u, z), w])
+        let half = V::Int::select(w.lt(0), -self.max, self.max);
+        self.pack::<V>([negate_if(u, z), if x { half - w } else { w }])
     }
 }
+
+kernels!(Spherical: 4 bytes);

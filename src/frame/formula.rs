@@ -1,162 +1,143 @@
-//! What a family of frame codecs writes, and what they share: the input, and the basis of a normal.
+//! The trait that every family of frame codecs implements, and what they share: the input, and the
+//! basis of a normal.
 
-use bytemuck::Pod;
+use crate::batch::storage::{CodeBytes, CodeIn};
+use crate::formula::support::sanitize::{magnitude, sanitize};
+use crate::simd::math::{atan2_half_turns, sqrt};
+use crate::simd::{Simd, SimdInt, Vec3, map_vec};
 
-use crate::batch::Encoder;
-use crate::formula::{One, Stored, Two, direction, magnitude};
-use crate::simd::math;
-use crate::simd::{Each, Simd, SimdInt};
-
-/// A representation of frames, as arithmetic on lanes. A code is two words, of which the second is 0 if
-/// it has at most 32 bits.
-pub(crate) trait FrameFormula: 'static {
-    /// The code of a frame, canonical: its normal by the encoder `E`.
-    fn encode<E: Encoder, V: Simd>(frame: Prepared<V>) -> [V::Int; 2];
+/// A representation of frames, on any number of lanes. A code is two words, of which the second is 0
+/// if it has at most 32 bits.
+pub(super) trait FrameFormula: Copy + Send + Sync + 'static {
+    /// The code of a frame, canonical, with the nearest normal if `PRECISE`.
+    fn encode<V: Simd, const PRECISE: bool>(self, frame: Prepared<V>) -> [V::Int; 2];
 
     /// Total: an orthonormal frame for every bit pattern.
-    fn decode<V: Simd>(code: [V::Int; 2]) -> Decoded<V>;
+    fn decode<V: Simd>(self, code: [V::Int; 2]) -> Decoded<V>;
 
     /// The code that encoders emit for the frame of `code`.
-    fn canonical<V: Simd>(code: [V::Int; 2]) -> [V::Int; 2];
+    fn canonical<V: Simd>(self, code: [V::Int; 2]) -> [V::Int; 2];
 }
 
 /// A frame of any kind, made one that can be encoded.
-pub(crate) struct Prepared<V: Simd> {
+pub(super) struct Prepared<V: Simd> {
     /// A direction as [`Formula`](crate::formula::Formula) encodes it.
-    pub(crate) normal: [V; 3],
+    pub(super) normal: Vec3<V>,
     /// Its unit vector.
-    pub(crate) unit_normal: [V; 3],
-    /// Its part across the normal.
-    tangent: [V; 3],
+    pub(super) unit_normal: Vec3<V>,
+    /// The component of the tangent perpendicular to the normal.
+    tangent: Vec3<V>,
     /// Whether there is a tangent that is not parallel to the normal.
     across: V::Mask,
-    /// The squared sine of what the angle between normal and tangent lacks of 90 degrees.
-    pub(crate) sin_squared: V,
+    /// The squared sine of the difference between 90 degrees and the angle from normal to tangent.
+    pub(super) sin_squared: V,
     /// Whether the handedness is -1.
-    pub(crate) negative: V::Mask,
+    pub(super) negative: V::Mask,
 }
 
 impl<V: Simd> Prepared<V> {
     #[inline(always)]
-    pub(crate) fn new(normal: [V; 3], tangent: [V; 3], handedness: V) -> Self {
+    pub(super) fn new(normal: Vec3<V>, tangent: Vec3<V>, handedness: V) -> Self {
         /// 2^-40, for 2^-20 radians: a few roundings of a parallel vector are far below.
         const LEAST: f32 = 9.094_947e-13;
-        let (zero, one) = (V::zero(), V::splat(1.0));
         // Neither zero nor NaN.
-        let given = zero.lt(magnitude(tangent));
-        let normal = direction(normal);
-        let unit_normal = math::normalize(normal);
-        let tangent = math::normalize(direction(tangent));
-        let along = math::dot(unit_normal, tangent);
-        let across = math::length_squared(math::cross(unit_normal, tangent));
+        let given = V::splat(0.0).lt(magnitude(tangent));
+        let normal = sanitize(normal);
+        let unit_normal = normal.normalize();
+        let tangent = sanitize(tangent).normalize();
+        let along = unit_normal.dot(tangent);
+        let across = unit_normal.cross(tangent).length_squared();
         Prepared {
             normal,
             unit_normal,
-            tangent: [0, 1, 2].each(
-                #[inline(always)]
-                |i: usize| tangent[i] - along * unit_normal[i],
-            ),
+            tangent: tangent - unit_normal * along,
             across: given & V::splat(LEAST).lt(across),
-            sin_squared: V::select(given, (along * along).lesser(one), one),
-            negative: handedness.lt(zero),
+            sin_squared: V::select(given, (along * along).min(1.0), 1.0),
+            negative: handedness.lt(0.0),
         }
     }
 
-    /// The tangent's coordinates in the plane of two vectors across the normal.
+    /// The tangent's coordinates in the plane of two vectors perpendicular to the normal.
     #[inline(always)]
-    pub(crate) fn tangent_in(&self, [a, b]: [[V; 3]; 2]) -> [V; 2] {
+    pub(super) fn tangent_in(&self, [a, b]: [Vec3<V>; 2]) -> [V; 2] {
         [
-            V::select(self.across, math::dot(self.tangent, a), V::splat(1.0)),
-            V::select(self.across, math::dot(self.tangent, b), V::zero()),
+            V::select(self.across, self.tangent.dot(a), 1.0),
+            V::select(self.across, self.tangent.dot(b), 0.0),
         ]
     }
 }
 
 /// A decoded frame.
-pub(crate) struct Decoded<V> {
-    pub(crate) normal: [V; 3],
-    pub(crate) tangent: [V; 3],
-    pub(crate) handedness: V,
+pub(super) struct Decoded<V> {
+    pub(super) normal: Vec3<V>,
+    pub(super) tangent: Vec3<V>,
+    pub(super) handedness: V,
 }
 
-/// Two unit vectors across a unit vector and each other, a right-handed system with it as the third
-/// (Duff et al. 2017).
+/// Two unit vectors perpendicular to a unit vector and each other, a right-handed system with it as
+/// the third (Duff et al. 2017).
 #[inline(always)]
-pub(crate) fn basis<V: Simd>([x, y, z]: [V; 3]) -> [[V; 3]; 2] {
+pub(super) fn basis<V: Simd>(Vec3 { x, y, z }: Vec3<V>) -> [Vec3<V>; 2] {
     let one = V::splat(1.0);
     let sign = one.negate_where_negative(z);
     let a = -one / (sign + z);
     let b = x * y * a;
-    [[one + sign * x * x * a, sign * b, -(sign * x)], [b, sign + y * y * a, -y]]
+    [Vec3::new(sign * x * x * a + one, sign * b, -(sign * x)), Vec3::new(b, sign + y * y * a, -y)]
 }
 
 /// u a + w b, over its length, without negative zeros.
 #[inline(always)]
-pub(crate) fn unit_combination<V: Simd>([u, w]: [V; 2], [a, b]: [[V; 3]; 2]) -> [V; 3] {
-    let v = [0, 1, 2].each(
-        #[inline(always)]
-        |i: usize| u * a[i] + w * b[i],
-    );
-    math::normalize(v).each(|c| c + V::zero())
+pub(super) fn unit_combination<V: Simd>([u, w]: [V; 2], [a, b]: [Vec3<V>; 2]) -> Vec3<V> {
+    unsigned_zeros((a * u + b * w).normalize())
+}
+
+/// Replaces -0 by 0.
+#[inline(always)]
+pub(super) fn unsigned_zeros<V: Simd>(v: Vec3<V>) -> Vec3<V> {
+    map_vec!(v, |c| c + 0.0)
 }
 
 /// 1, or -1 where the highest bit is set.
 #[inline(always)]
-pub(crate) fn sign<V: Simd>(bits: V::Int) -> V {
-    V::from_bits(V::splat(1.0).to_bits() | (bits & V::Int::splat(i32::MIN)))
+pub(super) fn sign<V: Simd>(bits: V::Int) -> V {
+    V::from_bits((bits & i32::MIN) | 1.0f32.to_bits() as i32)
 }
 
 /// The angle whose sine has this square, from 0 to 1.
 #[inline]
-pub(crate) fn skew_degrees(sin_squared: f32) -> f32 {
-    // Less than a root is defined for, or than anyone can see.
+pub(super) fn skew_degrees(sin_squared: f32) -> f32 {
+    // Below this a root is not defined, nor can anyone see it.
     if sin_squared < f32::MIN_POSITIVE {
         return 0.0;
     }
-    let (sin, cos) = (math::sqrt(sin_squared), math::sqrt(1.0 - sin_squared));
-    math::atan2_half_turns(sin, cos) * 180.0
+    let (sin, cos) = (sqrt(sin_squared), sqrt(1.0 - sin_squared));
+    atan2_half_turns(sin, cos) * 180.0
 }
 
-/// How a code of two words stands in memory.
-pub(crate) trait StoredFrame: Pod {
-    fn load<V: Simd>(block: &V::Block<Self>) -> [V::Int; 2];
-    fn store<V: Simd>(code: [V::Int; 2], block: &mut V::Block<Self>);
+/// Bytes that hold a code of two words.
+pub(super) trait FrameBytes: CodeBytes {
+    fn to_words<V: Simd>(code: CodeIn<Self, V>) -> [V::Int; 2];
+    fn from_words<V: Simd>(words: [V::Int; 2]) -> CodeIn<Self, V>;
 }
 
-impl StoredFrame for u32 {
+impl FrameBytes for [u8; 4] {
     #[inline(always)]
-    fn load<V: Simd>(block: &V::Block<Self>) -> [V::Int; 2] {
-        [<Self as Stored<One>>::load::<V>(block), V::Int::splat(0)]
+    fn to_words<V: Simd>(code: V::Int) -> [V::Int; 2] {
+        [code, V::Int::splat(0)]
     }
     #[inline(always)]
-    fn store<V: Simd>([low, _]: [V::Int; 2], block: &mut V::Block<Self>) {
-        <Self as Stored<One>>::store::<V>(low, block);
-    }
-}
-
-impl StoredFrame for u64 {
-    #[inline(always)]
-    fn load<V: Simd>(block: &V::Block<Self>) -> [V::Int; 2] {
-        <Self as Stored<Two>>::load::<V>(block)
-    }
-    #[inline(always)]
-    fn store<V: Simd>(code: [V::Int; 2], block: &mut V::Block<Self>) {
-        <Self as Stored<Two>>::store::<V>(code, block);
+    fn from_words<V: Simd>([low, _]: [V::Int; 2]) -> V::Int {
+        low
     }
 }
 
-impl StoredFrame for [i16; 4] {
+impl FrameBytes for [u8; 8] {
     #[inline(always)]
-    fn load<V: Simd>(block: &V::Block<Self>) -> [V::Int; 2] {
-        let pair = |low: i16, high: i16| u32::from(low as u16) | u32::from(high as u16) << 16;
-        [
-            V::load_int(block, |[x, y, _, _]: Self| pair(x, y)),
-            V::load_int(block, |[_, _, z, w]: Self| pair(z, w)),
-        ]
+    fn to_words<V: Simd>(code: [V::Int; 2]) -> [V::Int; 2] {
+        code
     }
     #[inline(always)]
-    fn store<V: Simd>([low, high]: [V::Int; 2], block: &mut V::Block<Self>) {
-        V::store_int(low, block, |[x, y, _, _], i| (*x, *y) = (i as i16, (i >> 16) as i16));
-        V::store_int(high, block, |[_, _, z, w], i| (*z, *w) = (i as i16, (i >> 16) as i16));
+    fn from_words<V: Simd>(words: [V::Int; 2]) -> [V::Int; 2] {
+        words
     }
 }

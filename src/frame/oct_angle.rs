@@ -1,50 +1,63 @@
 //! An octahedral normal, and the tangent's angle around it.
 
-use crate::batch::Encoder;
 use crate::formula::Formula;
+use crate::formula::circle::Circle;
 use crate::formula::oct::{Central, Oct};
-use crate::low_dimensions::{angle_direction, nearest_angle};
 use crate::simd::{Simd, SimdInt};
 
 use super::formula::{Decoded, FrameFormula, Prepared, basis, sign, unit_combination};
 
-/// `OCT` bits of normal, `ANGLE` of tangent and one of handedness, 32 or 64 in all.
-pub(crate) struct OctAngle<const OCT: u32, const ANGLE: u32>;
-
-impl<const OCT: u32, const ANGLE: u32> OctAngle<OCT, ANGLE> {
-    /// Whether the angle stands in a word of its own.
-    const WIDE: bool = {
-        assert!(OCT == 32 && ANGLE == 31 || OCT + ANGLE == 31);
-        OCT == 32
-    };
+/// A normal, an angle and a sign bit, in 32 or 64 bits in all.
+#[derive(Clone, Copy)]
+pub(super) struct OctAngle {
+    oct: Oct<Central>,
+    angle: Circle,
+    /// Where the angle begins, or 32 if it has a word of its own.
+    shift: u32,
 }
 
-impl<const OCT: u32, const ANGLE: u32> FrameFormula for OctAngle<OCT, ANGLE> {
+impl OctAngle {
+    pub(super) const fn new(oct_bits: u32, angle_bits: u32) -> Self {
+        assert!(oct_bits == 32 && angle_bits == 31 || oct_bits + angle_bits == 31);
+        OctAngle { oct: Oct::new(oct_bits), angle: Circle::new(angle_bits), shift: oct_bits }
+    }
+}
+
+impl FrameFormula for OctAngle {
     #[inline(always)]
-    fn encode<E: Encoder, V: Simd>(frame: Prepared<V>) -> [V::Int; 2] {
-        let oct = E::encode::<Oct<Central, OCT>, V>(frame.normal);
+    fn encode<V: Simd, const PRECISE: bool>(self, frame: Prepared<V>) -> [V::Int; 2] {
+        let oct = if PRECISE {
+            self.oct.encode_precise(frame.normal)
+        } else {
+            self.oct.encode(frame.normal)
+        };
         // Around the normal that the decoder will have.
-        let normal = Oct::<Central, OCT>::decode::<V>(oct);
-        let angle = nearest_angle::<ANGLE, V>(frame.tangent_in(basis(normal)));
-        let sign = V::Int::select(frame.negative, V::Int::splat(i32::MIN), V::Int::splat(0));
-        if Self::WIDE {
+        let normal = self.oct.decode::<V>(oct);
+        let angle = self.angle.nearest(frame.tangent_in(basis(normal)));
+        let sign = V::Int::select(frame.negative, i32::MIN, 0);
+        if self.shift == 32 {
             [oct, angle | sign]
         } else {
-            [oct | angle.shl(OCT) | sign, V::Int::splat(0)]
+            [oct | angle.shl(self.shift) | sign, V::Int::splat(0)]
         }
     }
 
     #[inline(always)]
-    fn decode<V: Simd>([low, high]: [V::Int; 2]) -> Decoded<V> {
-        let normal = Oct::<Central, OCT>::decode::<V>(low);
-        let (angle, last) = if Self::WIDE { (high, high) } else { (low.shr(OCT), low) };
-        let tangent = unit_combination(angle_direction::<ANGLE, V>(angle), basis(normal));
+    fn decode<V: Simd>(self, [low, high]: [V::Int; 2]) -> Decoded<V> {
+        let normal = self.oct.decode::<V>(low);
+        let (angle, last) =
+            if self.shift == 32 { (high, high) } else { (low.shr_logical(self.shift), low) };
+        let tangent = unit_combination(self.angle.direction::<V>(angle), basis(normal));
         Decoded { normal, tangent, handedness: sign(last) }
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>([low, high]: [V::Int; 2]) -> [V::Int; 2] {
-        let oct = Oct::<Central, OCT>::canonical::<V>(low);
-        if Self::WIDE { [oct, high] } else { [oct | low.shr(OCT).shl(OCT), high] }
+    fn canonical<V: Simd>(self, [low, high]: [V::Int; 2]) -> [V::Int; 2] {
+        let oct = self.oct.mirror::<V>(low, [false; 3]);
+        if self.shift == 32 {
+            [oct, high]
+        } else {
+            [oct | low.shr_logical(self.shift).shl(self.shift), high]
+        }
     }
 }

@@ -23,14 +23,15 @@
 
 use core::marker::PhantomData;
 
-use super::Rotation;
 use super::chart::{
-    Code, Layout, LeftOut, Point, around_within, in_chart_of_largest, largest, select_point,
+    Code, Layout, LeftOut, Point, floor_and_ceil_clamped, in_chart_of_largest, largest,
 };
+use super::formula::Rotation;
 use crate::simd::math::{inv_sqrt, sqrt};
-use crate::simd::{Each, Simd, SimdInt, SimdMask};
+use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map4};
 
 /// Smallest three in the layout `Y`.
+#[derive(Clone, Copy)]
 pub(super) struct SmallestThree<Y>(PhantomData<Y>);
 
 impl<Y: Layout> SmallestThree<Y> {
@@ -41,71 +42,69 @@ impl<Y: Layout> SmallestThree<Y> {
     /// 1 / (sqrt(2) M).
     const STEP: f32 = (core::f64::consts::FRAC_1_SQRT_2 / Y::M as f64) as f32;
 
+    pub(super) const fn new() -> Self {
+        SmallestThree(PhantomData)
+    }
+
     /// n to `f32` rounding, and its low 32 bits.
     #[inline(always)]
-    fn left_out_squared<V: Simd>(fields: [V::Int; 3]) -> (V, V::Int) {
-        let [ii, jj, ll] = fields.each(
-            #[inline(always)]
-            |i| i * i,
-        );
+    fn left_out_squared<V: Simd>(fields: Vec3<V::Int>) -> (V, V::Int) {
+        let Vec3 { x: ii, y: jj, z: ll } = map_vec!(fields, |i| i * i);
         let low = V::Int::splat(Self::SQUARE as i32) - ii - jj - ll;
         if Y::BITS <= 15 {
             return (V::from_int(low), low);
         }
         // In digits of 10 bits, i^2 = 2^20 h^2 + 2^11 h r + r^2.
-        let [h, r] = [fields.each(|i| i.sar(10)), fields.each(|i| i.low(10))];
-        let high =
-            V::Int::splat((Self::SQUARE >> 20) as i32) - h[0] * h[0] - h[1] * h[1] - h[2] * h[2];
-        let middle = h[0] * r[0] + h[1] * r[1] + h[2] * r[2];
-        let rest = V::Int::splat((Self::SQUARE & 0xF_FFFF) as i32)
-            - r[0] * r[0]
-            - r[1] * r[1]
-            - r[2] * r[2];
+        let h = map_vec!(fields, |i| i.shr_arithmetic(10));
+        let r = map_vec!(fields, |i| i.low_bits(10));
+        let high = V::Int::splat((Self::SQUARE >> 20) as i32) - h.x * h.x - h.y * h.y - h.z * h.z;
+        let middle = h.x * r.x + h.y * r.y + h.z * r.z;
+        let rest =
+            V::Int::splat((Self::SQUARE & 0xF_FFFF) as i32) - r.x * r.x - r.y * r.y - r.z * r.z;
         // Both exact.
-        let high = V::from_int(high - middle.sar(9));
-        let rest = V::from_int(rest - middle.low(9).shl(11));
-        (high * V::splat(1_048_576.0) + rest, low)
+        let high = V::from_int(high - middle.shr_arithmetic(9));
+        let rest = V::from_int(rest - middle.low_bits(9).shl(11));
+        (high * 1_048_576.0 + rest, low)
     }
 
-    /// What a code stands for.
+    /// The point of a code.
     #[inline(always)]
     fn point<V: Simd>(code: Code<Y, V>) -> Point<V> {
         let point = Y::unpack::<V>(code);
-        let beyond = Self::left_out_squared::<V>(point.0).0.lt(V::zero());
-        let identity = ([V::Int::splat(0); 3], V::Int::splat(3));
-        select_point::<V>(beyond, identity, point)
+        let beyond = Self::left_out_squared::<V>(point.fields).0.lt(0.0);
+        let zero = V::Int::splat(0);
+        let identity = Point { fields: Vec3::new(zero, zero, zero), left_out: V::Int::splat(3) };
+        Point::select(beyond, identity, point)
     }
 
-    /// Of the codes that mean one rotation the one that is emitted.
+    /// Of the points of one rotation the one that is emitted.
     #[inline(always)]
-    fn canonical_point<V: Simd>((fields, index): Point<V>) -> Point<V> {
-        let (n, low) = Self::left_out_squared::<V>(fields);
+    fn canonical_point<V: Simd>(point: Point<V>) -> Point<V> {
+        let (n, low) = Self::left_out_squared::<V>(point.fields);
         let root = sqrt(n).round_int();
         // The root is off by less than 0.3, so equal low bits mean that all are.
         let whole = (root * root).eq(low);
-        let q = LeftOut::<V>::new(index).insert(fields, root, V::Int::select);
-        select_point::<V>(whole, in_chart_of_largest::<V>(q), (fields, index))
+        let q = LeftOut::<V>::new(point.left_out).insert_int(point.fields, root);
+        Point::select(whole, in_chart_of_largest::<V>(q), point)
     }
 
-    /// The nearest of all codes, canonical.
+    /// The nearest of all points, canonical.
     #[inline(always)]
     fn nearest<V: Simd>(q: [V; 4]) -> Point<V> {
-        let scale = inv_sqrt(length_squared(q)) * V::splat(Self::STEPS);
-        let [x, y, z, w] = q.each(
-            #[inline(always)]
-            |c| c * scale,
-        );
+        let scale = inv_sqrt(length_squared(q)) * Self::STEPS;
+        let [x, y, z, w] = map4!(q, |c| c * scale);
         let zero = V::Int::splat(0);
-        let mut nearest = Nearest { point: ([zero; 3], zero), off: V::splat(f32::INFINITY) };
-        nearest.consider::<Y>([y, z, w], x, 0);
-        nearest.consider::<Y>([x, z, w], y, 1);
-        nearest.consider::<Y>([x, y, w], z, 2);
-        nearest.consider::<Y>([x, y, z], w, 3);
+        let point = Point { fields: Vec3::new(zero, zero, zero), left_out: zero };
+        let mut nearest = Nearest { point, off: V::splat(f32::INFINITY) };
+        nearest.consider::<Y>(Vec3::new(y, z, w), x, 0);
+        nearest.consider::<Y>(Vec3::new(x, z, w), y, 1);
+        nearest.consider::<Y>(Vec3::new(x, y, w), z, 2);
+        nearest.consider::<Y>(Vec3::new(x, y, z), w, 3);
         Self::canonical_point::<V>(nearest.point)
     }
 }
 
-/// The nearest code so far, and how far off it is in steps, squared.
+/// The nearest point so far, and its squared distance in steps.
 struct Nearest<V: Simd> {
     point: Point<V>,
     off: V,
@@ -114,30 +113,24 @@ struct Nearest<V: Simd> {
 impl<V: Simd> Nearest<V> {
     /// Considers the eight roundings in one chart, of a quaternion in steps.
     #[inline(always)]
-    fn consider<Y: Layout>(&mut self, others: [V; 3], left_out: V, index: i32) {
-        let target = others.each(
-            #[inline(always)]
-            |c| c.negate_where_negative(left_out),
-        );
-        let [is, js, ls] = target.each(
-            #[inline(always)]
-            |c| around_within(c, Y::M),
-        );
-        for i in is {
-            for j in js {
-                for l in ls {
-                    let fields = [i, j, l];
+    fn consider<Y: Layout>(&mut self, others: Vec3<V>, main: V, left_out: i32) {
+        let target = map_vec!(others, |c| c.negate_where_negative(main));
+        let around = map_vec!(target, |c| floor_and_ceil_clamped(c, Y::M));
+        for i in around.x {
+            for j in around.y {
+                for l in around.z {
+                    let fields = Vec3::new(i, j, l);
                     let (n, _) = SmallestThree::<Y>::left_out_squared::<V>(fields);
-                    let mut off = sqrt(n) - left_out.abs();
+                    let mut off = sqrt(n) - main.abs();
                     off = off * off;
-                    for axis in 0..3 {
-                        let e = V::from_int(fields[axis]) - target[axis];
-                        off = off + e * e;
-                    }
-                    let nearer = off.lt(self.off) & V::zero().le(n);
+                    let e = Vec3::from_int(fields) - target;
+                    off = off + e.x * e.x;
+                    off = off + e.y * e.y;
+                    off = off + e.z * e.z;
+                    let nearer = off.lt(self.off) & V::splat(0.0).le(n);
                     self.off = V::select(nearer, off, self.off);
-                    let point = (fields, V::Int::splat(index));
-                    self.point = select_point::<V>(nearer, point, self.point);
+                    let point = Point { fields, left_out: V::Int::splat(left_out) };
+                    self.point = Point::select(nearer, point, self.point);
                 }
             }
         }
@@ -145,60 +138,52 @@ impl<V: Simd> Nearest<V> {
 }
 
 impl<Y: Layout> Rotation for SmallestThree<Y> {
-    type Words = Y::Words;
+    type Shape = Y::Shape;
 
     #[inline(always)]
-    fn encode<V: Simd>(q: [V; 4]) -> Code<Y, V> {
-        let index = largest(q);
-        let (others, left_out) = LeftOut::<V>::new(index).remove(q, V::select);
-        let scale = inv_sqrt(length_squared(q)) * V::splat(Self::STEPS);
-        let fields = others.each(
-            #[inline(always)]
-            |c| (c * scale.negate_where_negative(left_out)).round_int(),
-        );
+    fn encode<V: Simd>(self, q: [V; 4]) -> Code<Y, V> {
+        let left_out = largest(q);
+        let (others, main) = LeftOut::<V>::new(left_out).remove(q);
+        let scale = inv_sqrt(length_squared(q)) * Self::STEPS;
+        let signed = scale.negate_where_negative(main);
+        let fields = (others * signed).round_int();
         // Rounding moves what is left out by up to 1.6 steps: only so near to another chart can the
         // code be one of that.
-        let [i, j, l] = fields.each(
-            #[inline(always)]
-            |i| i.abs(),
-        );
-        let margin = left_out.abs() * scale - V::from_int(i.max(j).max(l));
-        let mut point = (fields, index);
-        if margin.lt(V::splat(2.0)).any() {
+        let Vec3 { x: i, y: j, z: l } = fields.abs_int();
+        let margin = main.abs() * scale - V::from_int(i.max(j).max(l));
+        let mut point = Point { fields, left_out };
+        if margin.lt(2.0).any() {
             point = Self::canonical_point::<V>(point);
         }
         Y::pack::<V>(point)
     }
 
     #[inline(always)]
-    fn encode_precise<V: Simd>(q: [V; 4]) -> Code<Y, V> {
+    fn encode_precise<V: Simd>(self, q: [V; 4]) -> Code<Y, V> {
         Y::pack::<V>(Self::nearest(q))
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(code: Code<Y, V>) -> [V; 4] {
-        let (fields, index) = Self::point::<V>(code);
+    fn decode<V: Simd>(self, code: Code<Y, V>) -> [V; 4] {
+        let Point { fields, left_out } = Self::point::<V>(code);
         let (n, low) = Self::left_out_squared::<V>(fields);
-        let root = sqrt(n * V::splat(1.0 / Self::SQUARE as f32));
+        let root = sqrt(n * (1.0 / Self::SQUARE as f32));
         // Whole numbers of steps are exact, so that it does not matter which component is left out.
-        let whole = (root * V::splat(Self::STEPS)).round_int();
-        let exact = V::from_int(whole) * V::splat(Self::STEP);
-        let left_out = V::Int::select((whole * whole).eq(low), exact.to_bits(), root.to_bits());
-        let others = fields.each(
-            #[inline(always)]
-            |i| V::from_int(i) * V::splat(Self::STEP),
-        );
-        LeftOut::<V>::new(index).insert(others, V::from_bits(left_out), V::select)
+        let whole = (root * Self::STEPS).round_int();
+        let exact = V::from_int(whole) * Self::STEP;
+        let is_whole = (whole * whole).eq(low);
+        let main = V::select(is_whole, exact, root);
+        LeftOut::<V>::new(left_out).insert(Vec3::from_int(fields) * Self::STEP, main)
     }
 
     #[inline(always)]
-    fn canonical<V: Simd>(code: Code<Y, V>) -> Code<Y, V> {
+    fn canonical<V: Simd>(self, code: Code<Y, V>) -> Code<Y, V> {
         Y::pack::<V>(Self::canonical_point::<V>(Self::point::<V>(code)))
     }
 }
 
 /// q.q.
 #[inline(always)]
-pub(super) fn length_squared<V: Simd>(q: [V; 4]) -> V {
-    q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]
+pub(super) fn length_squared<V: Simd>([x, y, z, w]: [V; 4]) -> V {
+    x * x + y * y + z * z + w * w
 }

@@ -3,7 +3,7 @@
 //! Arc tangents are in half turns: 1 is 180 degrees; sine and cosine take quarter turns. The
 //! polynomials interpolate at Chebyshev nodes.
 
-use crate::simd::{Each, Simd, SimdInt};
+use super::{Simd, SimdInt};
 
 /// 1/sqrt(x) for normal x > 0, with relative error below 1.1e-7; exact at 1. A large finite number
 /// at 0.
@@ -13,10 +13,10 @@ use crate::simd::{Each, Simd, SimdInt};
 /// costs the same order of time everywhere, also where there is no hardware for either.
 #[inline(always)]
 pub(crate) fn inv_sqrt<V: Simd>(x: V) -> V {
-    let guess = V::from_bits(V::Int::splat(0x5F1F_FFF9) - x.to_bits().shr(1));
-    let y = (guess * V::splat(0.703_952_25)) * (V::splat(2.389_244_6) - (x * guess) * guess);
+    let guess = V::from_bits(V::Int::splat(0x5F1F_FFF9) - x.to_bits().shr_logical(1));
+    let y = (guess * 0.703_952_25) * (V::splat(2.389_244_6) - (x * guess) * guess);
     let e = V::splat(1.0) - (x * y) * y;
-    y + y * (e * (V::splat(0.5) + V::splat(0.375) * e))
+    y + y * (e * (e * 0.375 + 0.5))
 }
 
 /// sqrt(x) for x = 0 or normal x > 0, with relative error below 1.5e-7; exact at 0 and 1.
@@ -25,36 +25,14 @@ pub(crate) fn sqrt<V: Simd>(x: V) -> V {
     x * inv_sqrt(x)
 }
 
-/// a.b.
+/// c[0] + c[1] x + c[2] x^2 + ..., by Horner's rule.
 #[inline(always)]
-pub(crate) fn dot<V: Simd>(a: [V; 3], b: [V; 3]) -> V {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// a x b.
-#[inline(always)]
-pub(crate) fn cross<V: Simd>(a: [V; 3], b: [V; 3]) -> [V; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// v.v.
-#[inline(always)]
-pub(crate) fn length_squared<V: Simd>(v: [V; 3]) -> V {
-    dot(v, v)
-}
-
-/// |a - b|^2.
-#[inline(always)]
-pub(crate) fn chord_squared<V: Simd>(a: [V; 3], b: [V; 3]) -> V {
-    length_squared([a[0] - b[0], a[1] - b[1], a[2] - b[2]])
-}
-
-/// v / |v|, whose greatest component is from 2^-60 to 2^60; its length is 1 to 2.5e-7. An axis
-/// stays exact if its length is 1.
-#[inline(always)]
-pub(crate) fn normalize<V: Simd>(v: [V; 3]) -> [V; 3] {
-    let r = inv_sqrt(length_squared(v));
-    v.each(|c| c * r)
+pub(crate) fn horner<V: Simd, const N: usize>(x: V, coefficients: [f32; N]) -> V {
+    let mut sum = V::splat(coefficients[N - 1]);
+    for c in coefficients[..N - 1].iter().rev() {
+        sum = x * sum + *c;
+    }
+    sum
 }
 
 /// (sin, cos) of |x| <= 4 quarter turns, with error below 1.2e-7; exact at whole ones.
@@ -65,14 +43,17 @@ pub(crate) fn sin_cos_quarter_turns<V: Simd>(x: V) -> (V, V) {
     turn_by_quarters(quarter, sin_cos_of_half(x - V::from_int(quarter)))
 }
 
-/// The (sin, cos) of an angle, turned by so many quarters.
+/// The (sin, cos) of an angle, turned by a number of quarters.
 #[inline(always)]
 pub(crate) fn turn_by_quarters<V: Simd>(quarter: V::Int, (sin, cos): (V, V)) -> (V, V) {
-    let odd = quarter.low(1).eq(V::Int::splat(1));
+    /// Negated where bit 1 of `quarter` is set.
+    #[inline(always)]
+    fn signed<V: Simd>(quarter: V::Int, v: V) -> V {
+        V::from_bits(v.to_bits() ^ (quarter & 2).shl(30))
+    }
+    let odd = quarter.low_bits(1).eq(1);
     let (sin, cos) = (V::select(odd, cos, sin), V::select(odd, sin, cos));
-    let sign =
-        |quarter: V::Int, v: V| V::from_bits(v.to_bits() ^ (quarter & V::Int::splat(2)).shl(30));
-    (sign(quarter, sin), sign(quarter + V::Int::splat(1), cos))
+    (signed(quarter, sin), signed(quarter + 1, cos))
 }
 
 /// [`sin_cos_quarter_turns`] for |x| <= 1, where a cosine of 0 is positive.
@@ -81,27 +62,27 @@ pub(crate) fn sin_cos_of_one<V: Simd>(x: V) -> (V, V) {
     let magnitude = x.abs();
     // Mirror into the nearer half, and back.
     let complement = V::splat(1.0) - magnitude;
-    let (sin, cos) = sin_cos_of_half(magnitude.lesser(complement));
+    let (sin, cos) = sin_cos_of_half(magnitude.min(complement));
     let mirrored = complement.lt(magnitude);
     let (sin, cos) = (V::select(mirrored, cos, sin), V::select(mirrored, sin, cos));
-    let sign = x.to_bits() & V::Int::splat(i32::MIN);
+    let sign = x.to_bits() & i32::MIN;
     (V::from_bits(sin.to_bits() | sign), cos)
 }
 
 /// [`sin_cos_quarter_turns`] for |x| <= 1/2.
 #[inline(always)]
 pub(crate) fn sin_cos_of_half<V: Simd>(x: V) -> (V, V) {
-    let s = x * x;
-    let sin = x
-        * (V::splat(core::f32::consts::FRAC_PI_2)
-            + s * (V::splat(-5.167_713 / 8.0)
-                + s * (V::splat(2.550_162_6 / 32.0)
-                    + s * (V::splat(-0.599_202_1 / 128.0) + s * V::splat(0.081_001_63 / 512.0)))));
-    let cos = V::splat(1.0)
-        + s * (V::splat(-4.934_802 / 4.0)
-            + s * (V::splat(4.058_710_6 / 16.0)
-                + s * (V::splat(-1.335_137_8 / 64.0) + s * V::splat(0.232_125_41 / 256.0))));
-    (sin, cos)
+    const SIN: [f32; 5] = [
+        core::f32::consts::FRAC_PI_2,
+        -5.167_713 / 8.0,
+        2.550_162_6 / 32.0,
+        -0.599_202_1 / 128.0,
+        0.081_001_63 / 512.0,
+    ];
+    const COS: [f32; 5] =
+        [1.0, -4.934_802 / 4.0, 4.058_710_6 / 16.0, -1.335_137_8 / 64.0, 0.232_125_41 / 256.0];
+    let xx = x * x;
+    (x * horner(xx, SIN), horner(xx, COS))
 }
 
 /// The angle of (x, y) in half turns, in (-1, 1], with error below 1.5e-7; 0 at (0, 0). Zeros have
@@ -111,32 +92,28 @@ pub(crate) fn sin_cos_of_half<V: Simd>(x: V) -> (V, V) {
 pub(crate) fn atan2_half_turns<V: Simd>(y: V, x: V) -> V {
     let (ax, ay) = (x.abs(), y.abs());
     let (steep, a) = angle_in_octant(ax, ay);
-    let a = V::select(steep, V::splat(0.25) + a, a);
+    let a = V::select(steep, a + 0.25, a);
     // Back to the whole turn.
     let a = V::select(ax.lt(ay), V::splat(0.5) - a, a);
-    let a = V::select(x.lt(V::zero()), V::splat(1.0) - a, a);
+    let a = V::select(x.lt(0.0), V::splat(1.0) - a, a);
     a.negate_where_negative(y)
 }
 
-/// The angle between (ax, ay) and the nearer axis in half turns, for components >= 0; where it is
-/// steep, less a quarter: the angle from the diagonal, which is negative. So it is from -1/8 to 1/8,
-/// with relative error below 3e-7.
+/// The angle between (ax, ay) and the nearer axis in half turns, for components >= 0. Where it is
+/// steep, a quarter is subtracted: the angle from the diagonal, which is negative. So it is from -1/8
+/// to 1/8, with relative error below 3e-7.
 #[inline(always)]
 pub(crate) fn angle_in_octant<V: Simd>(ax: V, ay: V) -> (V::Mask, V) {
-    let (long, short) = (ax.greater(ay), ax.lesser(ay));
+    const ATAN: [f32; 5] =
+        [core::f32::consts::FRAC_1_PI, -0.106_101_55, 0.063_579_48, -0.044_081_114, 0.025_389_325];
+    let (long, short) = (ax.max(ay), ax.min(ay));
     // Above tan(22.5 degrees), measure from the diagonal: atan(s/l) = 45 degrees +
     // atan((s-l)/(s+l)).
-    let steep = (long * V::splat(0.414_213_57)).lt(short);
+    let steep = (long * 0.414_213_57).lt(short);
     let over = V::select(steep, short - long, short);
     let under = V::select(steep, short + long, long);
-    let t = over / under.greater(V::splat(f32::MIN_POSITIVE));
-    let s = t * t;
-    let a = t
-        * (V::splat(core::f32::consts::FRAC_1_PI)
-            + s * (V::splat(-0.106_101_55)
-                + s * (V::splat(0.063_579_48)
-                    + s * (V::splat(-0.044_081_114) + s * V::splat(0.025_389_325)))));
-    (steep, a)
+    let t = over / under.max(f32::MIN_POSITIVE);
+    (steep, t * horner(t * t, ATAN))
 }
 
 #[cfg(test)]

@@ -1,35 +1,49 @@
-//! The only arithmetic a formula may use, and its one-lane form.
+//! The only arithmetic that a formula may use.
 //!
-//! Every required method is exact in IEEE arithmetic (or on integers), so one lane and many
-//! give the same bits on every target. What is approximate is written once, on top, here and in
-//! [`math`](crate::simd::math).
+//! Every required method is exact in IEEE arithmetic (or on integers), so one lane and many give the
+//! same bits on every target. What is approximate is written once, on top, here and in [`math`].
 
 pub(crate) mod dispatch;
 pub(crate) mod math;
+mod operators;
+mod scalar;
 pub(crate) mod stream;
-pub(crate) mod wide;
+mod vec3;
+mod wide;
 #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
-pub(crate) mod x86;
+mod x86;
 
-use core::num::Wrapping;
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use crate::simd::stream::Fence;
+pub(crate) use scalar::I32x1;
+pub(crate) use vec3::{Vec3, map_vec, map2, map3, map4};
 
-/// 1.5 * 2^23: adding it rounds to an integer, ties to even, which then stands in the low mantissa bits.
+use stream::Fence;
+
+/// 1.5 * 2^23: adding it rounds to an integer, ties to even, in the low mantissa bits.
 const ROUNDER: f32 = 12_582_912.0;
 
-/// Of vectors that lanes rearrange.
-pub(crate) const MOST_COMPONENTS: usize = 8;
+/// Largest number of components of a vector that lanes transpose with shuffles.
+pub(crate) const MAX_SHUFFLED: usize = 4;
 
-/// A vector of `f32`, of as many lanes as the implementation has.
+/// Largest number of lanes.
+pub(crate) const MAX_LANES: usize = 16;
+
+/// A SIMD vector of `f32`.
+///
+/// A number on the right of an operator, or as an argument, stands for a vector of that number.
 pub(crate) trait Simd:
     Copy
+    + From<f32>
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
+    + Add<f32, Output = Self>
+    + Sub<f32, Output = Self>
+    + Mul<f32, Output = Self>
+    + Div<f32, Output = Self>
 {
     /// Wrapping 32-bit integers, one per lane.
     type Int: SimdInt<Mask = Self::Mask>;
@@ -37,24 +51,34 @@ pub(crate) trait Simd:
     type Mask: SimdMask;
     /// As many elements of a slice as there are lanes.
     type Block<T: Copy + 'static>: Copy + 'static;
-    /// Whether [`stream`](Simd::stream) does more than [`store`](Simd::store).
-    const STREAMS: bool = false;
+    /// Number of lanes.
+    const LANES: usize;
 
     /// The whole blocks of a slice, and the rest.
     fn split<T: Copy + 'static>(slice: &[T]) -> (&[Self::Block<T>], &[T]);
     /// The whole blocks of a slice, and the rest.
     fn split_mut<T: Copy + 'static>(slice: &mut [T]) -> (&mut [Self::Block<T>], &mut [T]);
-    /// Compiles `f` for the processor that these lanes need. What is not inlined into a loop over lanes
-    /// consists of a call of this, whose closure is.
+    /// A block whose elements are all `value`.
+    fn fill<T: Copy + 'static>(value: T) -> Self::Block<T>;
+    /// The elements of a block.
+    fn elements<T: Copy + 'static>(block: &Self::Block<T>) -> &[T];
+    /// The elements of a block.
+    fn elements_mut<T: Copy + 'static>(block: &mut Self::Block<T>) -> &mut [T];
+
+    /// Runs `f` with the target features that these lanes need. A function over lanes that is not
+    /// inlined consists of one call of this.
     #[inline(always)]
-    fn compiled_for<R>(f: impl FnOnce() -> R) -> R {
+    fn with_target_features<R>(f: impl FnOnce() -> R) -> R {
         f()
     }
 
-    fn splat(x: f32) -> Self;
+    #[inline(always)]
+    fn splat(x: f32) -> Self {
+        Self::from(x)
+    }
     fn load(block: &Self::Block<f32>) -> Self;
     fn store(self, block: &mut Self::Block<f32>);
-    /// Stores, past the caches if the block is aligned for that.
+    /// Stores, past the caches if the fence is for that and the block is aligned.
     #[inline(always)]
     fn stream<'a>(self, block: &'a mut Self::Block<f32>, _: &Fence<'a>) {
         self.store(block);
@@ -78,19 +102,24 @@ pub(crate) trait Simd:
     fn store_bytes(int: Self::Int, block: &mut Self::Block<[u8; 3]>) {
         Self::store_int(int, block, |[a, b, c], i| [*a, *b, *c, _] = i.to_le_bytes());
     }
-    /// The first three components of a block of vectors of at most [`MOST_COMPONENTS`].
+    /// The first `C` components of a block of rows of `N` floats in native byte order, at most
+    /// [`MAX_SHUFFLED`].
     #[inline(always)]
-    fn load_vectors<const N: usize>(block: &Self::Block<[f32; N]>) -> [Self; 3] {
-        [0, 1, 2].each(
-            #[inline(always)]
-            |i: usize| Self::from_bits(Self::load_int(block, |v| v[i].to_bits())),
-        )
+    fn load_rows<const N: usize, const C: usize>(block: &Self::Block<[[u8; 4]; N]>) -> [Self; C] {
+        let mut columns = [Self::from(0.0); C];
+        for (i, column) in columns.iter_mut().enumerate() {
+            *column = Self::from_bits(Self::load_int(block, |row| u32::from_ne_bytes(row[i])));
+        }
+        columns
     }
-    /// Writes the first three components of a block of vectors of at most [`MOST_COMPONENTS`].
+    /// Writes the first `C` components of a block of rows as [`load_rows`](Simd::load_rows) reads them.
     #[inline(always)]
-    fn store_vectors<const N: usize>(v: [Self; 3], block: &mut Self::Block<[f32; N]>) {
-        for (i, c) in v.into_iter().enumerate() {
-            Self::store_int(c.to_bits(), block, |v, bits| v[i] = f32::from_bits(bits));
+    fn store_rows<const N: usize, const C: usize>(
+        columns: [Self; C],
+        block: &mut Self::Block<[[u8; 4]; N]>,
+    ) {
+        for (i, column) in columns.into_iter().enumerate() {
+            Self::store_int(column.to_bits(), block, |row, bits| row[i] = bits.to_ne_bytes());
         }
     }
 
@@ -99,55 +128,54 @@ pub(crate) trait Simd:
     /// Nearest number, ties to even; exact for |i| <= 2^24.
     fn from_int(i: Self::Int) -> Self;
 
-    fn lt(self, other: Self) -> Self::Mask;
-    fn le(self, other: Self) -> Self::Mask;
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// Looks each lane up. Beyond the end, 0.
+    fn lt(self, other: impl Into<Self>) -> Self::Mask;
+    fn le(self, other: impl Into<Self>) -> Self::Mask;
+    fn select(mask: Self::Mask, yes: impl Into<Self>, no: impl Into<Self>) -> Self;
+    /// `table[index]`, or 0 beyond the end.
     fn gather<T: Copy + Into<u32>>(table: &[T], index: Self::Int) -> Self::Int;
-    /// Looks each lane's vector up. Beyond the end, zeros.
+    /// `table[index]`, or zeros beyond the end.
     fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3];
-    /// Of each index the element and the three after it, or zeros where there are none.
+    /// The element at `index` and the three after it, or zeros if there are fewer.
     fn gather4(table: &[u32], index: Self::Int) -> [Self::Int; 4];
 
     #[inline(always)]
-    fn zero() -> Self {
-        Self::splat(0.0)
-    }
-
-    #[inline(always)]
     fn abs(self) -> Self {
-        Self::from_bits(self.to_bits() & Self::Int::splat(0x7FFF_FFFF))
+        Self::from_bits(self.to_bits() & 0x7FFF_FFFF)
     }
 
-    /// Minus self where `sign` is below zero. A negative zero counts as zero.
+    /// -self where `sign` is below zero. A negative zero counts as zero.
     #[inline(always)]
     fn negate_where_negative(self, sign: Self) -> Self {
-        Self::select(sign.lt(Self::zero()), -self, self)
+        Self::select(sign.lt(0.0), -self, self)
     }
 
-    /// The lesser; `other` where either is NaN, but not for signalling ones: the compiler may take
-    /// AArch64's FMINNM, which makes them quiet and returns them. So a caller's numbers are rid of NaN before.
+    /// The smaller of two numbers. `other` if either is a quiet NaN.
+    ///
+    /// With a signalling NaN the result differs between targets, since the compiler may take AArch64's
+    /// FMINNM. So callers replace NaN before.
     #[inline(always)]
-    fn lesser(self, other: Self) -> Self {
+    fn min(self, other: impl Into<Self>) -> Self {
+        let other = other.into();
         Self::select(self.lt(other), self, other)
     }
 
-    /// The greater; `other` where either is NaN, with the same exception.
+    /// The greater of two numbers. NaN as in [`min`](Simd::min).
     #[inline(always)]
-    fn greater(self, other: Self) -> Self {
+    fn max(self, other: impl Into<Self>) -> Self {
+        let other = other.into();
         Self::select(other.lt(self), self, other)
     }
 
     /// Nearest integer, ties to even. For |x| < 2^22.
     #[inline(always)]
     fn round(self) -> Self {
-        (self + Self::splat(ROUNDER)) - Self::splat(ROUNDER)
+        (self + ROUNDER) - ROUNDER
     }
 
     /// Nearest integer, ties to even, as an integer. For |x| <= 2^22.
     #[inline(always)]
     fn round_int(self) -> Self::Int {
-        (self + Self::splat(ROUNDER)).to_bits() - Self::Int::splat(ROUNDER.to_bits() as i32)
+        (self + ROUNDER).to_bits() - ROUNDER.to_bits() as i32
     }
 
     /// [`round_int`](Simd::round_int) for |x| <= 2^24.
@@ -156,29 +184,25 @@ pub(crate) trait Simd:
         // From 2^23 to 2^24 the bits count whole numbers; smaller ones are moved there.
         const FIRST: f32 = 8_388_608.0;
         let magnitude = self.abs();
-        let moved = magnitude.lt(Self::splat(FIRST));
-        let bits = Self::select(moved, magnitude + Self::splat(FIRST), magnitude).to_bits();
+        let moved = magnitude.lt(FIRST);
+        let bits = Self::select(moved, magnitude + FIRST, magnitude).to_bits();
         let start = FIRST.to_bits() as i32;
-        let start = Self::Int::select(
-            moved,
-            Self::Int::splat(start),
-            Self::Int::splat(start - FIRST as i32),
-        );
-        let n = bits - start;
-        Self::Int::select(self.lt(Self::zero()), -n, n)
+        let n = bits - Self::Int::select(moved, start, start - FIRST as i32);
+        Self::Int::select(self.lt(0.0), -n, n)
     }
 
     /// Greatest integer not above. For |x| < 2^22.
     #[inline(always)]
     fn floor(self) -> Self {
         let r = self.round();
-        Self::select(self.lt(r), r - Self::splat(1.0), r)
+        Self::select(self.lt(r), r - 1.0, r)
     }
 }
 
-/// A vector of wrapping 32-bit integers.
+/// A SIMD vector of wrapping 32-bit integers.
 pub(crate) trait SimdInt:
     Copy
+    + From<i32>
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -186,27 +210,43 @@ pub(crate) trait SimdInt:
     + BitOr<Output = Self>
     + BitXor<Output = Self>
     + Neg<Output = Self>
+    + Add<i32, Output = Self>
+    + Sub<i32, Output = Self>
+    + Mul<i32, Output = Self>
+    + BitAnd<i32, Output = Self>
+    + BitOr<i32, Output = Self>
+    + BitXor<i32, Output = Self>
 {
     type Mask: SimdMask;
 
-    fn splat(i: i32) -> Self;
+    #[inline(always)]
+    fn splat(i: i32) -> Self {
+        Self::from(i)
+    }
     fn shl(self, bits: u32) -> Self;
-    /// Shifts in zeros.
-    fn shr(self, bits: u32) -> Self;
-    /// Shifts in the sign.
-    fn sar(self, bits: u32) -> Self;
-    fn lt(self, other: Self) -> Self::Mask;
-    fn eq(self, other: Self) -> Self::Mask;
-    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Shifts right and fills with zeros.
+    fn shr_logical(self, bits: u32) -> Self;
+    /// Shifts right and fills with the sign.
+    fn shr_arithmetic(self, bits: u32) -> Self;
+    fn lt(self, other: impl Into<Self>) -> Self::Mask;
+    fn eq(self, other: impl Into<Self>) -> Self::Mask;
+    fn select(mask: Self::Mask, yes: impl Into<Self>, no: impl Into<Self>) -> Self;
 
     #[inline(always)]
-    fn min(self, other: Self) -> Self {
+    fn min(self, other: impl Into<Self>) -> Self {
+        let other = other.into();
         Self::select(self.lt(other), self, other)
     }
 
     #[inline(always)]
-    fn max(self, other: Self) -> Self {
+    fn max(self, other: impl Into<Self>) -> Self {
+        let other = other.into();
         Self::select(other.lt(self), self, other)
+    }
+
+    #[inline(always)]
+    fn clamp(self, min: i32, max: i32) -> Self {
+        self.max(min).min(max)
     }
 
     #[inline(always)]
@@ -216,21 +256,26 @@ pub(crate) trait SimdInt:
 
     /// Less than, both read as unsigned.
     #[inline(always)]
-    fn below(self, other: Self) -> Self::Mask {
-        let flip = Self::splat(i32::MIN);
-        (self ^ flip).lt(other ^ flip)
+    fn lt_unsigned(self, other: Self) -> Self::Mask {
+        (self ^ i32::MIN).lt(other ^ i32::MIN)
     }
 
     /// The low `bits` bits, read as two's complement.
     #[inline(always)]
     fn sign_extend(self, bits: u32) -> Self {
-        self.shl(32 - bits).sar(32 - bits)
+        self.shl(32 - bits).shr_arithmetic(32 - bits)
     }
 
     /// The low `bits` bits.
     #[inline(always)]
-    fn low(self, bits: u32) -> Self {
-        self & Self::splat(((1u64 << bits) - 1) as i32)
+    fn low_bits(self, bits: u32) -> Self {
+        self & ((1u64 << bits) - 1) as i32
+    }
+
+    /// -self where `sign` is below zero.
+    #[inline(always)]
+    fn negate_where_negative(self, sign: Self) -> Self {
+        Self::select(sign.lt(0), -self, self)
     }
 }
 
@@ -238,171 +283,20 @@ pub(crate) trait SimdInt:
 pub(crate) trait SimdMask:
     Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
+    fn splat(value: bool) -> Self;
     /// Whether it holds in any lane.
     fn any(self) -> bool;
 }
 
-/// `map` for the components of a vector, without the detours that keep `array::map` from being
-/// inlined.
-pub(crate) trait Each<T> {
-    type Of<U>;
-    fn each<U>(self, f: impl Fn(T) -> U) -> Self::Of<U>;
-}
-
-/// A closure with an attribute, which a `let` cannot take. Whatever works on lanes must be inlined, so that
-/// it is compiled for the processor of the loop that it ends up in.
-#[inline(always)]
-pub(crate) fn inlined<F>(f: F) -> F {
-    f
-}
-
-impl<T> Each<T> for [T; 2] {
-    type Of<U> = [U; 2];
-    #[inline(always)]
-    fn each<U>(self, f: impl Fn(T) -> U) -> [U; 2] {
-        let [a, b] = self;
-        [f(a), f(b)]
-    }
-}
-
-impl<T> Each<T> for [T; 3] {
-    type Of<U> = [U; 3];
-    #[inline(always)]
-    fn each<U>(self, f: impl Fn(T) -> U) -> [U; 3] {
-        let [a, b, c] = self;
-        [f(a), f(b), f(c)]
-    }
-}
-
-impl<T> Each<T> for [T; 4] {
-    type Of<U> = [U; 4];
-    #[inline(always)]
-    fn each<U>(self, f: impl Fn(T) -> U) -> [U; 4] {
-        let [a, b, c, d] = self;
-        [f(a), f(b), f(c), f(d)]
-    }
-}
-
-impl Simd for f32 {
-    type Int = Wrapping<i32>;
-    type Mask = bool;
-    type Block<T: Copy + 'static> = [T; 1];
-
-    #[inline(always)]
-    fn split<T: Copy + 'static>(slice: &[T]) -> (&[[T; 1]], &[T]) {
-        slice.as_chunks()
-    }
-    #[inline(always)]
-    fn split_mut<T: Copy + 'static>(slice: &mut [T]) -> (&mut [[T; 1]], &mut [T]) {
-        slice.as_chunks_mut()
-    }
-    #[inline(always)]
-    fn splat(x: f32) -> Self {
-        x
-    }
-    #[inline(always)]
-    fn load(block: &[f32; 1]) -> Self {
-        block[0]
-    }
-    #[inline(always)]
-    fn store(self, block: &mut [f32; 1]) {
-        *block = [self];
-    }
-    #[inline(always)]
-    fn load_int<T: Copy + 'static>(block: &[T; 1], f: impl Fn(T) -> u32) -> Self::Int {
-        Wrapping(f(block[0]) as i32)
-    }
-    #[inline(always)]
-    fn store_int<T: Copy + 'static>(int: Self::Int, block: &mut [T; 1], f: impl Fn(&mut T, u32)) {
-        f(&mut block[0], int.0 as u32);
-    }
-    #[inline(always)]
-    fn from_bits(bits: Self::Int) -> Self {
-        f32::from_bits(bits.0 as u32)
-    }
-    #[inline(always)]
-    fn to_bits(self) -> Self::Int {
-        Wrapping(f32::to_bits(self) as i32)
-    }
-    #[inline(always)]
-    fn from_int(i: Self::Int) -> Self {
-        i.0 as f32
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self < other
-    }
-    #[inline(always)]
-    fn le(self, other: Self) -> bool {
-        self <= other
-    }
-    #[inline(always)]
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-    #[inline(always)]
-    fn gather<T: Copy + Into<u32>>(table: &[T], index: Self::Int) -> Self::Int {
-        Wrapping(look_up(table, index.0))
-    }
-    #[inline(always)]
-    fn gather4(table: &[u32], index: Self::Int) -> [Self::Int; 4] {
-        look_up4(table, index.0).map(Wrapping)
-    }
-    #[inline(always)]
-    fn gather3(table: &[[f32; 3]], index: Self::Int) -> [Self; 3] {
-        look_up3(table, index.0)
-    }
-}
-
-impl SimdInt for Wrapping<i32> {
-    type Mask = bool;
-
-    #[inline(always)]
-    fn splat(i: i32) -> Self {
-        Wrapping(i)
-    }
-    #[inline(always)]
-    fn shl(self, bits: u32) -> Self {
-        Wrapping(self.0.wrapping_shl(bits))
-    }
-    #[inline(always)]
-    fn shr(self, bits: u32) -> Self {
-        Wrapping((self.0 as u32).wrapping_shr(bits) as i32)
-    }
-    #[inline(always)]
-    fn sar(self, bits: u32) -> Self {
-        Wrapping(self.0.wrapping_shr(bits))
-    }
-    #[inline(always)]
-    fn lt(self, other: Self) -> bool {
-        self.0 < other.0
-    }
-    #[inline(always)]
-    fn eq(self, other: Self) -> bool {
-        self.0 == other.0
-    }
-    #[inline(always)]
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-}
-
-impl SimdMask for bool {
-    #[inline(always)]
-    fn any(self) -> bool {
-        self
-    }
-}
-
-/// One lane of a gather.
+/// One lane of [`Simd::gather`].
 #[inline(always)]
 pub(crate) fn look_up<T: Copy + Into<u32>>(table: &[T], index: i32) -> i32 {
     table.get(index as u32 as usize).map_or(0, |&t| t.into() as i32)
 }
 
-/// One lane of a gather of four in a row.
+/// One lane of [`Simd::gather4`].
 #[inline(always)]
-pub(crate) fn look_up4(table: &[u32], index: i32) -> [i32; 4] {
+fn look_up4(table: &[u32], index: i32) -> [i32; 4] {
     let index = index as u32 as usize;
     match table.get(index..index.wrapping_add(4)) {
         Some(&[a, b, c, d]) => [a as i32, b as i32, c as i32, d as i32],
@@ -410,7 +304,7 @@ pub(crate) fn look_up4(table: &[u32], index: i32) -> [i32; 4] {
     }
 }
 
-/// One lane of a gather of vectors.
+/// One lane of [`Simd::gather3`].
 #[inline(always)]
 pub(crate) fn look_up3(table: &[[f32; 3]], index: i32) -> [f32; 3] {
     table.get(index as u32 as usize).copied().unwrap_or_default()

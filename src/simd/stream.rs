@@ -1,26 +1,26 @@
-//! Stores past the caches, for outputs that are larger than they.
+//! Non-temporal stores for outputs larger than the caches.
 //!
-//! A usual store reads the line that it changes first, and drives out another: of what is written
-//! once and read much later, every byte crosses the memory bus twice. Streaming stores do neither.
+//! An ordinary store first reads the line that it changes, and evicts another. So of what is written
+//! once and read much later, every byte crosses the memory bus twice. A streaming store avoids both.
 
 use core::cell::Cell;
 use core::marker::PhantomData;
 
-/// Bytes from which on an output counts as larger than the caches.
+/// Smallest output in bytes that counts as larger than the caches.
 const LARGE: usize = 32 << 20;
 
-/// Whether an output of so many bytes is larger than the caches, where any lanes stream.
+/// Whether an output of `bytes` is larger than the caches, and streaming stores exist here.
 #[inline(always)]
 pub(crate) fn is_large(bytes: usize) -> bool {
-    let any = cfg!(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")));
-    any && bytes >= LARGE
+    let available = cfg!(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")));
+    available && bytes >= LARGE
 }
 
-/// What streaming stores need to be aligned to.
+/// Alignment in bytes that streaming stores need.
 pub(crate) const ALIGNMENT: usize = 64;
 
-/// Whether stores should stream. Those that do may be seen late and in any order until this is
-/// dropped, which whoever makes one has to do; so long it keeps what they go to borrowed.
+/// Whether stores stream. Streaming stores become visible in any order until the fence is dropped; it
+/// borrows their destination until then. Do not leak it.
 pub(crate) struct Fence<'a> {
     streams: bool,
     blocks: PhantomData<Cell<&'a mut ()>>,
@@ -43,7 +43,61 @@ impl Drop for Fence<'_> {
     fn drop(&mut self) {
         #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
         if self.streams {
-            crate::simd::x86::stores::fence();
+            x86::fence();
         }
+    }
+}
+
+#[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
+pub(crate) mod x86 {
+    //! The streaming stores of AVX2 and AVX-512.
+    //!
+    //! `forbid(unsafe_code)` stops here, as they take pointers. A token proves that the processor has
+    //! the instructions; a [`Fence`] keeps the block borrowed until all others see what it holds.
+
+    #![allow(unsafe_code)]
+
+    #[cfg(target_arch = "x86")]
+    use core::arch::x86 as arch;
+    #[cfg(target_arch = "x86_64")]
+    use core::arch::x86_64 as arch;
+
+    use fearless_simd::{Avx2, Avx512};
+
+    use super::Fence;
+
+    /// A processor, by its token, that streams blocks of `N` floats.
+    pub(crate) trait Streaming<const N: usize> {
+        /// Streams to an aligned block if the fence is for that, and stores to any other.
+        fn stream<'a>(self, from: [f32; N], to: &'a mut [f32; N], fence: &Fence<'a>);
+    }
+
+    macro_rules! streaming {
+        ($token:ty, $n:literal: $load:ident, $stream:ident) => {
+            impl Streaming<$n> for $token {
+                #[inline(always)]
+                fn stream<'a>(self, from: [f32; $n], to: &'a mut [f32; $n], fence: &Fence<'a>) {
+                    let address = to.as_mut_ptr();
+                    if !fence.streams() || address.addr() % size_of_val(to) != 0 {
+                        *to = from;
+                        return;
+                    }
+                    // SAFETY: the token proves that these instructions exist. Both arrays are as long
+                    // as the vector. The one written to is aligned, and borrowed alone until the fence
+                    // is dropped, which its only maker, `batch::decode`, does.
+                    unsafe { arch::$stream(address, arch::$load(from.as_ptr())) }
+                }
+            }
+        };
+    }
+
+    streaming!(Avx2, 8: _mm256_loadu_ps, _mm256_stream_ps);
+    streaming!(Avx512, 16: _mm512_loadu_ps, _mm512_stream_ps);
+
+    /// Orders all earlier streaming stores before later ones.
+    #[inline(always)]
+    pub(super) fn fence() {
+        // SAFETY: it takes nothing. Only AVX2 and AVX-512 stream, and those processors have it.
+        unsafe { arch::_mm_sfence() }
     }
 }

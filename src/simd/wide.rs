@@ -1,13 +1,15 @@
-//! The eight-lane form of [`Simd`], on `wide`.
+//! Eight lanes on `wide`, which chooses its instructions at compile time.
 //!
-//! Only operations that `wide` computes exactly on every target are used: see `clippy.toml` for
-//! those that are banned.
+//! Only operations that `wide` computes exactly on every target are used: `clippy.toml` lists those
+//! that are banned.
 
-use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
+use core::ops::{Neg, Not};
 
-use crate::simd::{Each, Simd, SimdInt, SimdMask, look_up, look_up3, look_up4};
 use bytemuck::cast;
 use wide::{f32x8, i32x8, u32x8};
+
+use super::operators::{operators, scalar_operators};
+use super::{Simd, SimdInt, SimdMask, look_up, look_up3, look_up4, map3, map4};
 
 /// Eight `f32`.
 #[derive(Clone, Copy)]
@@ -24,22 +26,24 @@ pub(crate) struct I32x8(i32x8);
 #[repr(transparent)]
 pub(crate) struct Mask32x8(i32x8);
 
-macro_rules! operators {
-    ($($type:ident: $($trait:ident $method:ident),*;)*) => { $($(
-        impl $trait for $type {
-            type Output = Self;
-            #[inline(always)]
-            fn $method(self, other: Self) -> Self {
-                Self($trait::$method(self.0, other.0))
-            }
-        }
-    )*)* };
+operators!([] F32x8: Add add, Sub sub, Mul mul, Div div);
+operators!([] I32x8: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
+operators!([] Mask32x8: BitAnd bitand, BitOr bitor);
+scalar_operators!([] F32x8, f32: Add add, Sub sub, Mul mul, Div div);
+scalar_operators!([] I32x8, i32: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
+
+impl From<f32> for F32x8 {
+    #[inline(always)]
+    fn from(x: f32) -> Self {
+        F32x8(f32x8::splat(x))
+    }
 }
 
-operators! {
-    F32x8: Add add, Sub sub, Mul mul, Div div;
-    I32x8: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor;
-    Mask32x8: BitAnd bitand, BitOr bitor;
+impl From<i32> for I32x8 {
+    #[inline(always)]
+    fn from(i: i32) -> Self {
+        I32x8(i32x8::splat(i))
+    }
 }
 
 impl Neg for F32x8 {
@@ -70,6 +74,7 @@ impl Simd for F32x8 {
     type Int = I32x8;
     type Mask = Mask32x8;
     type Block<T: Copy + 'static> = [T; 8];
+    const LANES: usize = 8;
 
     #[inline(always)]
     fn split<T: Copy + 'static>(slice: &[T]) -> (&[[T; 8]], &[T]) {
@@ -80,8 +85,16 @@ impl Simd for F32x8 {
         slice.as_chunks_mut()
     }
     #[inline(always)]
-    fn splat(x: f32) -> Self {
-        F32x8(f32x8::splat(x))
+    fn fill<T: Copy + 'static>(value: T) -> [T; 8] {
+        [value; 8]
+    }
+    #[inline(always)]
+    fn elements<T: Copy + 'static>(block: &[T; 8]) -> &[T] {
+        block
+    }
+    #[inline(always)]
+    fn elements_mut<T: Copy + 'static>(block: &mut [T; 8]) -> &mut [T] {
+        block
     }
     #[inline(always)]
     fn load(block: &[f32; 8]) -> Self {
@@ -114,30 +127,30 @@ impl Simd for F32x8 {
         F32x8(i.0.round_float())
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> Mask32x8 {
-        Mask32x8(cast(self.0.simd_lt(other.0)))
+    fn lt(self, other: impl Into<Self>) -> Mask32x8 {
+        Mask32x8(cast(self.0.simd_lt(other.into().0)))
     }
     #[inline(always)]
-    fn le(self, other: Self) -> Mask32x8 {
-        Mask32x8(cast(self.0.simd_le(other.0)))
+    fn le(self, other: impl Into<Self>) -> Mask32x8 {
+        Mask32x8(cast(self.0.simd_le(other.into().0)))
     }
     #[inline(always)]
-    fn select(mask: Mask32x8, yes: Self, no: Self) -> Self {
-        F32x8(cast::<i32x8, f32x8>(mask.0).select(yes.0, no.0))
+    fn select(mask: Mask32x8, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
+        F32x8(cast::<i32x8, f32x8>(mask.0).select(yes.into().0, no.into().0))
     }
     #[inline(always)]
     fn gather<T: Copy + Into<u32>>(table: &[T], index: I32x8) -> I32x8 {
         I32x8(i32x8::new(index.0.to_array().map(|i| look_up(table, i))))
     }
     #[inline(always)]
-    fn gather4(table: &[u32], index: I32x8) -> [I32x8; 4] {
-        let fours = index.0.to_array().map(|i| look_up4(table, i));
-        [0, 1, 2, 3].each(|i: usize| I32x8(i32x8::new(fours.map(|four| four[i]))))
-    }
-    #[inline(always)]
     fn gather3(table: &[[f32; 3]], index: I32x8) -> [Self; 3] {
         let vectors = index.0.to_array().map(|i| look_up3(table, i));
-        [0, 1, 2].each(|c: usize| F32x8(f32x8::new(vectors.map(|v| v[c]))))
+        map3!([0, 1, 2], |c: usize| F32x8(f32x8::new(vectors.map(|v| v[c]))))
+    }
+    #[inline(always)]
+    fn gather4(table: &[u32], index: I32x8) -> [I32x8; 4] {
+        let fours = index.0.to_array().map(|i| look_up4(table, i));
+        map4!([0, 1, 2, 3], |i: usize| I32x8(i32x8::new(fours.map(|four| four[i]))))
     }
 }
 
@@ -145,36 +158,36 @@ impl SimdInt for I32x8 {
     type Mask = Mask32x8;
 
     #[inline(always)]
-    fn splat(i: i32) -> Self {
-        I32x8(i32x8::splat(i))
-    }
-    #[inline(always)]
     fn shl(self, bits: u32) -> Self {
         I32x8(self.0 << bits)
     }
     #[inline(always)]
-    fn shr(self, bits: u32) -> Self {
+    fn shr_logical(self, bits: u32) -> Self {
         I32x8(cast(cast::<i32x8, u32x8>(self.0) >> bits))
     }
     #[inline(always)]
-    fn sar(self, bits: u32) -> Self {
+    fn shr_arithmetic(self, bits: u32) -> Self {
         I32x8(self.0 >> bits)
     }
     #[inline(always)]
-    fn lt(self, other: Self) -> Mask32x8 {
-        Mask32x8(self.0.simd_lt(other.0))
+    fn lt(self, other: impl Into<Self>) -> Mask32x8 {
+        Mask32x8(self.0.simd_lt(other.into().0))
     }
     #[inline(always)]
-    fn eq(self, other: Self) -> Mask32x8 {
-        Mask32x8(self.0.simd_eq(other.0))
+    fn eq(self, other: impl Into<Self>) -> Mask32x8 {
+        Mask32x8(self.0.simd_eq(other.into().0))
     }
     #[inline(always)]
-    fn select(mask: Mask32x8, yes: Self, no: Self) -> Self {
-        I32x8(mask.0.select(yes.0, no.0))
+    fn select(mask: Mask32x8, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
+        I32x8(mask.0.select(yes.into().0, no.into().0))
     }
 }
 
 impl SimdMask for Mask32x8 {
+    #[inline(always)]
+    fn splat(value: bool) -> Self {
+        Mask32x8(i32x8::splat(-i32::from(value)))
+    }
     #[inline(always)]
     fn any(self) -> bool {
         self.0.any()

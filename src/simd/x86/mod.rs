@@ -1,23 +1,23 @@
-//! The vectors of this very processor, found when the program runs.
+//! Run-time detection of AVX2 and AVX-512.
 //!
-//! `forbid(unsafe_code)` stops here, for one reason: a lane's operations take no token that its
-//! instructions exist, so [`CpuLevel::token`] makes one of nothing.
+//! `forbid(unsafe_code)` stops here, for one reason: `fearless_simd` asks for a token per operation,
+//! and a [`Simd`](super::Simd) carries none. So [`CpuLevel::token`] creates one, which is sound only
+//! below [`dispatch`].
 
 #![allow(unsafe_code)]
 
-pub(crate) mod lanes;
-pub(crate) mod stores;
+mod lanes;
+mod shuffle;
 
 use fearless_simd::{Avx2, Avx512, Level, Simd};
 
-use crate::simd::dispatch::{Job, finish};
-use crate::simd::x86::lanes::{F32x8, F32x16};
+use super::dispatch::BatchLoop;
+use lanes::{F32x8, F32x16};
 
-/// Instructions that the processor has.
+/// Instructions that the processor was found to have.
 ///
 /// # Safety
-/// A type that implements it is named only where the processor was asked, which is here, so that
-/// whoever calls these functions does so on such a processor.
+/// The implementing types are used only below [`dispatch`], after the instructions were detected.
 pub(crate) unsafe trait CpuLevel: Copy + 'static {
     type Simd: Simd;
     fn token() -> Self::Simd;
@@ -26,7 +26,7 @@ pub(crate) unsafe trait CpuLevel: Copy + 'static {
 #[derive(Clone, Copy)]
 struct Avx2Level;
 
-// SAFETY: `dispatch` alone names it.
+// SAFETY: used only in `dispatch`, after AVX2 was detected.
 unsafe impl CpuLevel for Avx2Level {
     type Simd = Avx2;
     #[inline(always)]
@@ -39,7 +39,7 @@ unsafe impl CpuLevel for Avx2Level {
 #[derive(Clone, Copy)]
 struct Avx512Level;
 
-// SAFETY: `dispatch` alone names it.
+// SAFETY: used only in `dispatch`, after AVX-512 was detected.
 unsafe impl CpuLevel for Avx512Level {
     type Simd = Avx512;
     #[inline(always)]
@@ -49,29 +49,30 @@ unsafe impl CpuLevel for Avx512Level {
     }
 }
 
-/// Does a job on the vectors of AVX-512 or AVX2, or gives it back where there are none.
+/// Runs a loop on AVX-512 or AVX2, or returns it where there is neither.
 ///
 /// `--cfg disable_dispatch_avx512` and `--cfg disable_dispatch_avx2` leave one out, as they do in
 /// `fearless_simd`.
 #[inline(always)]
-pub(crate) fn dispatch<J: Job>(job: J) -> Option<J> {
+pub(super) fn dispatch<L: BatchLoop>(batch: L) -> Option<L> {
     let level = Level::new();
     if cfg!(not(disable_dispatch_avx512))
+        && L::USE_AVX512
         && let Some(avx512) = level.as_avx512()
     {
         avx512.vectorize(
             #[inline(always)]
-            || finish(job.run::<F32x16<Avx512Level>>()),
+            || batch.run::<F32x16<Avx512Level>>(),
         );
     } else if cfg!(not(disable_dispatch_avx2))
         && let Some(avx2) = level.as_avx2()
     {
         avx2.vectorize(
             #[inline(always)]
-            || finish(job.run::<F32x8<Avx2Level>>()),
+            || batch.run::<F32x8<Avx2Level>>(),
         );
     } else {
-        return Some(job);
+        return Some(batch);
     }
     None
 }

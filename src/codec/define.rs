@@ -1,0 +1,261 @@
+//! Defines the types, their `Codec`, and `Format`, from the rows of the table.
+
+use super::format::Visitor;
+use super::sealed::Batch;
+use super::{Axis, Codec, codec_table};
+use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::storage::{from_native, to_native};
+use crate::formula::{Formula, Kernels, Source, kernels};
+
+#[cfg(feature = "cartesian")]
+use crate::formula::cartesian::{
+    BestFit, Floats, HalfXyz, Snorm16Xyz, SnormXyz, Unorm16Xyz, UnormXyz,
+};
+#[cfg(feature = "polyhedral")]
+use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
+#[cfg(feature = "disk")]
+use crate::formula::disk::{Concentric, Disk, Ellipse, EqArea, EqDist, Stereo, Unstretched};
+#[cfg(feature = "polyhedral")]
+use crate::formula::icosphere::Icosphere;
+#[cfg(feature = "cartesian")]
+use crate::formula::xy_only::{XyHalf, XyOnly, XyUnorm};
+#[cfg(feature = "spherical")]
+use crate::formula::{
+    fibonacci::Fibonacci,
+    latlong::{Adaptive, LatLong, Uniform},
+    phi_z::PhiZ,
+    spherical::Spherical,
+};
+#[cfg(feature = "octahedral")]
+use crate::formula::{
+    front_oct::FrontOct,
+    hemi_oct::{HemiOct, SignedOct},
+    oct::{Central, EqualArea, Oct, OctUnorm, Warped},
+    octant::Octant,
+};
+
+/// The kernels of a row: the codec's own if it is `hot`, and otherwise those of its formula.
+macro_rules! row_kernels {
+    ($name:ident, $code:ty, $formula:ty, $value:expr; hot $($rest:ident)*) => {
+        impl Source for $name {
+            type Formula = $formula;
+            #[inline(always)]
+            fn formula(self) -> $formula {
+                const { $value }
+            }
+        }
+        kernels!($name: { size_of::<$code>() } bytes);
+        const KERNELS: &$name = &$name;
+    };
+    ($name:ident, $code:ty, $formula:ty, $value:expr; $flag:ident $($rest:ident)*) => {
+        row_kernels!($name, $code, $formula, $value; $($rest)*);
+    };
+    ($name:ident, $code:ty, $formula:ty, $value:expr;) => {
+        const KERNELS: &$formula = &$value;
+    };
+}
+
+/// The axes of `encode_precise`: those of `encode`, or its own.
+macro_rules! precise_axes {
+    ($axes:tt) => {
+        $axes
+    };
+    ($axes:tt $precise:tt) => {
+        $precise
+    };
+}
+
+macro_rules! define_codecs {
+    ($(
+        #[$gate:meta]
+        $family:literal {$(
+            $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
+                exact $axes:tt $(/ $axes_precise:tt)?,
+                $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
+        )*}
+    )*) => {
+        $($(
+            #[$gate]
+            #[doc = concat!("`", $text, "`: ", $bits, " bits in a `", stringify!($code), "`.")]
+            #[doc = ""]
+            #[doc = concat!(
+                "Maximum error: ", $fast, "° with `encode`, ", $precise, "° with `encode_precise`."
+            )]
+            #[doc = ""]
+            #[doc = $family]
+            #[doc = ""]
+            #[doc = concat!(
+                "Axes that round-trip exactly: ", axes_text!($axes), $("; with `encode_precise`: ", axes_text!($axes_precise),)? "."
+            )]
+            #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+            pub struct $name;
+
+            #[$gate]
+            const _: () = {
+                type Code = $code;
+                type Bytes = [u8; size_of::<$code>()];
+                const FORMULA: $formula $(<$($kind),+>)? = $formula $(::<$($kind),+>)? :: $new($($value),*);
+
+                row_kernels!(
+                    $name, $code, $formula $(<$($kind),+>)?, $formula $(::<$($kind),+>)? :: $new($($value),*);
+                    $($flag)*
+                );
+
+                impl Codec for $name {
+                    type Code = Code;
+                    const FORMAT: Format = Format::$name;
+
+                    #[inline]
+                    fn encode(v: [f32; 3]) -> Code {
+                        let v = FORMULA.prepare::<f32>(v.into());
+                        to_native::<Bytes, Code>(FORMULA.encode(v))
+                    }
+                    #[inline]
+                    fn encode_precise(v: [f32; 3]) -> Code {
+                        let v = FORMULA.prepare::<f32>(v.into());
+                        to_native::<Bytes, Code>(FORMULA.encode_precise(v))
+                    }
+                    #[inline]
+                    fn decode(code: Code) -> [f32; 3] {
+                        FORMULA.decode::<f32>(from_native::<Bytes, Code>(code)).to_array()
+                    }
+                    #[inline]
+                    fn canonical(code: Code) -> Code {
+                        mirror(code, [false; 3])
+                    }
+                    #[inline]
+                    fn negate(code: Code) -> Code {
+                        mirror(code, [true; 3])
+                    }
+                    #[inline]
+                    fn mirror(code: Code, axis: Axis) -> Code {
+                        mirror(code, axis.flips())
+                    }
+                }
+
+                impl Batch for $name {
+                    #[inline]
+                    fn encode_batch(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+                        KERNELS.encode(vectors, codes);
+                    }
+                    #[inline]
+                    fn encode_batch_precise(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+                        KERNELS.encode_precise(vectors, codes);
+                    }
+                    #[inline]
+                    fn decode_batch(codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
+                        KERNELS.decode(codes, vectors);
+                    }
+                    #[inline]
+                    fn mirror_batch(codes: CodesMut<'_>, flips: [bool; 3]) {
+                        KERNELS.mirror(codes, flips);
+                    }
+                }
+
+                impl $name {
+                    const KERNELS: &dyn Kernels = KERNELS;
+                }
+
+                #[inline(always)]
+                fn mirror(code: Code, flips: [bool; 3]) -> Code {
+                    let code = from_native::<Bytes, Code>(code);
+                    to_native::<Bytes, Code>(FORMULA.mirror::<f32>(code, flips))
+                }
+            };
+        )*)*
+
+        /// A codec chosen at run time: one variant per codec, in the order of the table.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[non_exhaustive]
+        pub enum Format {$($(
+            #[$gate]
+            #[doc = concat!("[`", stringify!($name), "`](struct@", stringify!($name), ")")]
+            $name,
+        )*)*}
+
+        impl Format {
+            /// Every format, in the order of the table.
+            pub const ALL: &'static [Format] = &[$($(#[$gate] Format::$name,)*)*];
+
+            /// The survey's own name, such as "oct16".
+            #[inline]
+            pub const fn name(self) -> &'static str {
+                match self {$($(#[$gate] Format::$name => $text,)*)*}
+            }
+
+            /// Number of significant bits. Higher bits are zero when encoded and ignored when decoded.
+            #[inline]
+            pub const fn bits(self) -> u32 {
+                match self {$($(#[$gate] Format::$name => $bits,)*)*}
+            }
+
+            /// Size of a code in bytes.
+            #[inline]
+            pub const fn code_size(self) -> usize {
+                match self {$($(#[$gate] Format::$name => size_of::<$code>(),)*)*}
+            }
+
+            /// Whether only directions with z >= 0 are represented.
+            #[inline]
+            pub const fn is_hemisphere(self) -> bool {
+                match self {$($(
+                    #[$gate]
+                    Format::$name => <$formula $(<$($kind),+>)? as Formula>::HEMISPHERE,
+                )*)*}
+            }
+
+            /// Upper bound on the error of `encode` in degrees, usually within 0.5 % of the true maximum.
+            /// For hemisphere formats it holds for inputs with z >= 0.
+            #[inline]
+            pub const fn max_error_degrees(self) -> f64 {
+                match self {$($(#[$gate] Format::$name => $fast,)*)*}
+            }
+
+            /// Upper bound on the error of `encode_precise` in degrees, usually within 0.5 % of the true
+            /// maximum. For hemisphere formats it holds for inputs with z >= 0.
+            #[inline]
+            pub const fn max_error_precise_degrees(self) -> f64 {
+                match self {$($(#[$gate] Format::$name => $precise,)*)*}
+            }
+
+            /// The axes that `encode` and `decode` return exactly, such as "±X ±Z"; "" if there are none.
+            #[inline]
+            pub const fn exact_axes(self) -> &'static str {
+                match self {$($(#[$gate] Format::$name => $axes,)*)*}
+            }
+
+            /// The axes that `encode_precise` and `decode` return exactly, such as "±X ±Z"; "" if there are
+            /// none.
+            #[inline]
+            pub const fn exact_axes_precise(self) -> &'static str {
+                match self {$($(#[$gate] Format::$name => precise_axes!($axes $($axes_precise)?),)*)*}
+            }
+
+            /// Calls `v` with the type of this codec.
+            ///
+            /// What `v` does is compiled for each of the codecs. [`encode`](Format::encode) and the like are
+            /// compiled once, in this crate.
+            #[inline]
+            pub fn visit<V: Visitor>(self, v: V) -> V::Output {
+                match self {$($(#[$gate] Format::$name => v.visit::<$name>(),)*)*}
+            }
+
+            /// The kernels of this codec.
+            pub(crate) fn kernels(self) -> &'static dyn Kernels {
+                match self {$($(#[$gate] Format::$name => $name::KERNELS,)*)*}
+            }
+        }
+    };
+}
+
+/// The text for a list of axes.
+macro_rules! axes_text {
+    ("") => {
+        "none"
+    };
+    ($axes:tt) => {
+        $axes
+    };
+}
+
+codec_table!(define_codecs);

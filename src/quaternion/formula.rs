@@ -1,0 +1,89 @@
+//! The trait that every family of rotations implements, and its kernels.
+
+use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::storage::{CodeBytes, CodeShape};
+use crate::batch::{Kernel, map, run};
+use crate::formula::support::sanitize::sanitize4;
+use crate::simd::Simd;
+use crate::simd::stream::Fence;
+
+/// A representation of rotations, on any number of lanes. See
+/// [`Formula`](crate::formula::Formula).
+pub(super) trait Rotation: Copy + Send + Sync + 'static {
+    /// Number of words that hold a code in lanes.
+    type Shape: CodeShape;
+
+    /// The fast encoder, of what [`sanitize4`] returns. Gives canonical codes.
+    fn encode<V: Simd>(self, q: [V; 4]) -> Code<Self, V>;
+    /// The code whose decoded rotation is closest to that of `q`, canonical.
+    fn encode_precise<V: Simd>(self, q: [V; 4]) -> Code<Self, V>;
+    /// Total: a unit quaternion for every bit pattern.
+    fn decode<V: Simd>(self, code: Code<Self, V>) -> [V; 4];
+    /// The code that encoders emit for the rotation of `code`.
+    fn canonical<V: Simd>(self, code: Code<Self, V>) -> Code<Self, V>;
+}
+
+/// A code of the rotation `R` in lanes.
+pub(super) type Code<R, V> = <<R as Rotation>::Shape as CodeShape>::In<V>;
+
+/// The kernels of a codec, in any layout, compiled here: see [`Kernels`](crate::formula::Kernels).
+pub trait RotationKernels {
+    /// [`QuaternionCodec::encode_soa`](super::QuaternionCodec::encode_soa) and the like.
+    fn encode_batch(quaternions: Vectors<'_, 4>, codes: CodesMut<'_>);
+    /// [`QuaternionCodec::encode_soa_precise`](super::QuaternionCodec::encode_soa_precise) and the like.
+    fn encode_batch_precise(quaternions: Vectors<'_, 4>, codes: CodesMut<'_>);
+    /// [`QuaternionCodec::decode_soa`](super::QuaternionCodec::decode_soa) and the like.
+    fn decode_batch(codes: Codes<'_>, quaternions: VectorsMut<'_, 4>);
+}
+
+/// [`Rotation::encode`] or [`Rotation::encode_precise`].
+struct Encode<R, const PRECISE: bool>(R);
+/// [`Rotation::decode`].
+struct Decode<R>(R);
+
+impl<'a, R: Rotation, B: CodeBytes<Shape = R::Shape>, const PRECISE: bool>
+    Kernel<'a, [&[f32]; 4], &'a mut [B]> for Encode<R, PRECISE>
+{
+    #[inline(always)]
+    fn run<V: Simd>(&self, q: [V; 4]) -> Code<R, V> {
+        let q = sanitize4(q);
+        if PRECISE { self.0.encode_precise(q) } else { self.0.encode(q) }
+    }
+}
+
+impl<'a, R: Rotation, B: CodeBytes<Shape = R::Shape>> Kernel<'a, &[B], [&'a mut [f32]; 4]>
+    for Decode<R>
+{
+    #[inline(always)]
+    fn run<V: Simd>(&self, code: Code<R, V>) -> [V; 4] {
+        self.0.decode::<V>(code)
+    }
+}
+
+#[inline(always)]
+pub(super) fn encode<R: Rotation, const N: usize, const PRECISE: bool>(
+    rotation: R,
+    quaternions: Vectors<'_, 4>,
+    codes: CodesMut<'_>,
+) where
+    [u8; N]: CodeBytes<Shape = R::Shape>,
+{
+    let kernel = |q: [&[f32]; 4], codes: &mut [u8]| {
+        map(Encode::<R, PRECISE>(rotation), q, codes.as_chunks_mut::<N>().0);
+    };
+    layout::encode(&kernel, N, quaternions, codes);
+}
+
+#[inline(always)]
+pub(super) fn decode<R: Rotation, const N: usize>(
+    rotation: R,
+    codes: Codes<'_>,
+    quaternions: VectorsMut<'_, 4>,
+) where
+    [u8; N]: CodeBytes<Shape = R::Shape>,
+{
+    let kernel = layout::decode_kernel(|codes: &[u8], q, fence: &Fence<'_>| {
+        run(Decode(rotation), codes.as_chunks::<N>().0, q, fence);
+    });
+    layout::decode(&kernel, N, codes, quaternions);
+}

@@ -1,0 +1,35 @@
+//! Operators of vectors that wrap another crate's.
+
+/// Operators between two vectors.
+macro_rules! operators {
+    ($generics:tt $type:ty: $($trait:ident $method:ident),*) => {
+        $(operators!(@one $generics $type, $trait $method);)*
+    };
+    (@one [$($generics:tt)*] $type:ty, $trait:ident $method:ident) => {
+        impl<$($generics)*> core::ops::$trait for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: Self) -> Self {
+                Self(core::ops::$trait::$method(self.0, other.0))
+            }
+        }
+    };
+}
+
+/// Operators between a vector and a number on its right.
+macro_rules! scalar_operators {
+    ($generics:tt $type:ty, $scalar:ty: $($trait:ident $method:ident),*) => {
+        $(scalar_operators!(@one $generics $type, $scalar, $trait $method);)*
+    };
+    (@one [$($generics:tt)*] $type:ty, $scalar:ty, $trait:ident $method:ident) => {
+        impl<$($generics)*> core::ops::$trait<$scalar> for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(self, other: $scalar) -> Self {
+                core::ops::$trait::$method(self, Self::from(other))
+            }
+        }
+    };
+}
+
+pub(super) use {operators, scalar_operators};
