@@ -35,8 +35,9 @@
 
 use core::marker::PhantomData;
 
+use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, PART, VectorsMut};
-use crate::batch::storage::{CodeBytes, Word, from_native};
+use crate::batch::storage::{Words, from_native};
 use crate::batch::{Kernel, run};
 use crate::codec::{Codec, Format, codec_table};
 use crate::error::LengthMismatch;
@@ -55,7 +56,6 @@ use crate::formula::{
     oct::{Central, EqualArea, Oct, Warped},
     octant::Octant,
 };
-use crate::simd::stream::Fence;
 use crate::simd::{I32x1, Simd, Vec3, look_up3};
 use crate::vector::SoaMut;
 
@@ -272,9 +272,7 @@ impl<F: Symmetric> Mirrored<'_, F> {
     }
 }
 
-impl<'a, F: Symmetric, B: CodeBytes<Shape = Word>> Kernel<'a, &[B], [&'a mut [f32]; 3]>
-    for Mirrored<'_, F>
-{
+impl<F: Symmetric> Kernel<CodeColumn<Words>, Columns<3>> for Mirrored<'_, F> {
     // Most of the time goes into loads of single elements.
     const USE_AVX512: bool = false;
 
@@ -302,10 +300,9 @@ macro_rules! octant_kernels {
             #[inline(never)]
             fn look_up(&self, octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
                 let formula = *self;
-                let kernel = layout::decode_kernel(|codes: &[u8], v, fence: &Fence<'_>| {
-                    run(Mirrored(formula, octant), codes.as_chunks::<4>().0, v, fence);
+                layout::decode(codes, vectors, &|codes, v, fence| {
+                    run::<CodeColumn<Words>, Columns<3>>(Mirrored(formula, octant), codes, v, fence);
                 });
-                layout::decode(&kernel, 4, codes, vectors);
             }
         }
     )* };

@@ -44,11 +44,9 @@
 //! unitpack's answer. Sources: Schuchman, "Dither Signals and Their Effect on Quantization Noise", 1964, on subtracting
 //! it; Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
 
-use crate::batch::columns::Indices;
-use crate::batch::layout::{
-    self, Codes, CodesMut, PART, Vectors, VectorsMut, columns, columns_mut,
-};
-use crate::batch::storage::{CodeBytes, Word, to_native};
+use crate::batch::columns::{CodeColumn, Columns, Indices};
+use crate::batch::layout::{Codes, CodesMut, PART, Vectors, VectorsMut, columns, columns_mut};
+use crate::batch::storage::{Words, to_native};
 use crate::batch::{Kernel, map};
 use crate::codec::{Codec, Format, codec_table};
 use crate::error::LengthMismatch;
@@ -203,19 +201,14 @@ impl Dither {
         codes: CodesMut<'_>,
     ) {
         let rotation = Rotation::of(format);
-        let mut buffer = [[0.0; PART]; 3];
-        let mut turned = [[0.0; PART]; 3];
-        let mut done = 0;
-        for codes in codes.parts() {
+        encode_numbered(self.index(first), vectors, codes, &|(vectors, numbers), codes| {
+            let mut buffer = [[0.0; PART]; 3];
             let len = codes.len();
-            let numbers = Indices { first: self.index(first).wrapping_add(done as u32), len };
-            let vectors = vectors.part(done, len, &mut buffer);
-            if let Some(turned) = columns_mut(&mut turned, len) {
-                map(Turn(rotation), (vectors, numbers), turned);
+            if let Some(turned) = columns_mut(&mut buffer, len) {
+                map::<Numbered, Columns<3>>(Turn(rotation), (vectors, numbers), turned);
             }
-            encode(Vectors::Columns(columns(&turned, len)), codes);
-            done += len;
-        }
+            encode(Vectors::Columns(columns(&buffer, len)), codes);
+        });
     }
 
     #[inline(never)]
@@ -239,7 +232,9 @@ impl Dither {
             }
             let part;
             (part, vectors) = vectors.split_at(len);
-            part.write(&mut buffer, |to| map(Turn(rotation), (columns(&turned, len), numbers), to));
+            part.write(&mut buffer, |to| {
+                map::<Numbered, Columns<3>>(Turn(rotation), (columns(&turned, len), numbers), to);
+            });
             done += len;
         }
     }
@@ -295,9 +290,12 @@ impl Rotation {
     }
 }
 
+/// Vectors, and their numbers.
+type Numbered = (Columns<3>, Indices);
+
 struct Turn(Rotation);
 
-impl<'a> Kernel<'a, ([&[f32]; 3], Indices), [&'a mut [f32]; 3]> for Turn {
+impl Kernel<Numbered, Columns<3>> for Turn {
     #[inline(always)]
     fn run<V: Simd>(&self, (v, number): ([V; 3], V::Int)) -> [V; 3] {
         self.0.turn(Vec3::from(v), number).to_array()
@@ -333,9 +331,7 @@ fn encode_stochastic<F: Lattice, V: Simd>(formula: F, v: Vec3<V>, number: V::Int
 
 struct Stochastic<F>(F);
 
-impl<'a, F: Lattice, B: CodeBytes<Shape = Word>> Kernel<'a, ([&[f32]; 3], Indices), &'a mut [B]>
-    for Stochastic<F>
-{
+impl<F: Lattice> Kernel<Numbered, CodeColumn<Words>> for Stochastic<F> {
     #[inline(always)]
     fn run<V: Simd>(&self, (v, number): ([V; 3], V::Int)) -> V::Int {
         encode_stochastic(self.0, Vec3::from(v), number)
@@ -344,16 +340,27 @@ impl<'a, F: Lattice, B: CodeBytes<Shape = Word>> Kernel<'a, ([&[f32]; 3], Indice
 
 #[inline(always)]
 fn encode_batch<F: Lattice>(formula: F, first: u32, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+    encode_numbered(first, vectors, codes, &|vectors, codes| {
+        codes.write(|codes| {
+            map::<Numbered, CodeColumn<Words>>(Stochastic(formula), vectors, codes);
+        });
+    });
+}
+
+/// Calls a kernel with vectors and their numbers, a part at a time.
+#[inline(never)]
+fn encode_numbered(
+    first: u32,
+    vectors: Vectors<'_, 3>,
+    codes: CodesMut<'_>,
+    kernel: &dyn Fn(([&[f32]; 3], Indices), CodesMut<'_>),
+) {
     let mut buffer = [[0.0; PART]; 3];
     let mut done = 0;
     for codes in codes.parts() {
         let len = codes.len();
         let numbers = Indices { first: first.wrapping_add(done as u32), len };
-        let kernel = |v: [&[f32]; 3], codes: &mut [u8]| {
-            map(Stochastic(formula), (v, numbers), codes.as_chunks_mut::<4>().0);
-        };
-        let vectors = vectors.part(done, len, &mut buffer);
-        layout::encode(&kernel, 4, Vectors::Columns(vectors), codes);
+        kernel((vectors.part(done, len, &mut buffer), numbers), codes);
         done += len;
     }
 }

@@ -4,12 +4,13 @@
 //! Independent Unit Vectors", 2014.
 
 use crate::batch::code_int::{CodeInt, holds};
+use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::storage::Words;
 use crate::batch::{Kernel, map, run};
 use crate::error::LengthMismatch;
 use crate::formula::circle::Circle;
 use crate::formula::support::sanitize::sanitize;
-use crate::simd::stream::Fence;
 use crate::simd::{I32x1, Simd, Vec3};
 
 /// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
@@ -153,14 +154,14 @@ impl Encode {
     }
 }
 
-impl<'a> Kernel<'a, [&[f32]; 2], &'a mut [[u8; 4]]> for Encode {
+impl Kernel<Columns<2>, CodeColumn<Words>> for Encode {
     #[inline(always)]
     fn run<V: Simd>(&self, v: [V; 2]) -> V::Int {
         Encode::run(self, v)
     }
 }
 
-impl<'a> Kernel<'a, &[[u8; 4]], [&'a mut [f32]; 2]> for Decode {
+impl Kernel<CodeColumn<Words>, Columns<2>> for Decode {
     #[inline(always)]
     fn run<V: Simd>(&self, code: V::Int) -> [V; 2] {
         self.0.direction::<V>(code)
@@ -169,16 +170,14 @@ impl<'a> Kernel<'a, &[[u8; 4]], [&'a mut [f32]; 2]> for Decode {
 
 #[inline(never)]
 fn encode(circle: Circle, xy: [&[f32]; 2], codes: CodesMut<'_>) {
-    let kernel = |xy: [&[f32]; 2], codes: &mut [u8]| {
-        map(Encode(circle), xy, codes.as_chunks_mut().0);
-    };
-    layout::encode(&kernel, 4, Vectors::Columns(xy), codes);
+    layout::encode(Vectors::Columns(xy), codes, &|xy, codes| {
+        map::<Columns<2>, CodeColumn<Words>>(Encode(circle), xy, codes);
+    });
 }
 
 #[inline(never)]
 fn decode(circle: Circle, codes: Codes<'_>, xy: [&mut [f32]; 2]) {
-    let kernel = layout::decode_kernel(|codes: &[u8], xy, fence: &Fence<'_>| {
-        run(Decode(circle), codes.as_chunks().0, xy, fence);
+    layout::decode(codes, VectorsMut::Columns(xy), &|codes, xy, fence| {
+        run::<CodeColumn<Words>, Columns<2>>(Decode(circle), codes, xy, fence);
     });
-    layout::decode(&kernel, 4, codes, VectorsMut::Columns(xy));
 }

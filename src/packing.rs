@@ -24,8 +24,8 @@
 //! ```
 
 use crate::batch::code_int::{CodeInt, holds};
-use crate::batch::columns::{Rows, RowsMut};
-use crate::batch::storage::{from_native, to_native};
+use crate::batch::columns::{CodeColumn, Rows};
+use crate::batch::storage::{CodeSlice, CodeSliceMut, from_native, to_native};
 use crate::batch::{Kernel, map};
 use crate::error::LengthMismatch;
 use crate::formula::support::bits::Pair;
@@ -61,7 +61,8 @@ pub fn pack_snorm12x2_slice(
 ) -> Result<(), LengthMismatch> {
     LengthMismatch::check_values(pairs.len(), texels.len())?;
     let rows = bytemuck::cast_slice(pairs);
-    map(PackSnorm12x2, Rows::<2, 2>(rows), texels);
+    let texels = CodeSliceMut { bytes: texels.as_flattened_mut(), size: 3 };
+    map::<Rows<2, 2>, CodeColumn<[u8; 3]>>(PackSnorm12x2, rows, texels);
     Ok(())
 }
 
@@ -85,7 +86,8 @@ pub fn unpack_snorm12x2_slice(
 ) -> Result<(), LengthMismatch> {
     LengthMismatch::check_values(pairs.len(), texels.len())?;
     let rows = bytemuck::cast_slice_mut(pairs);
-    map(UnpackSnorm12x2, texels, RowsMut::<2, 2>(rows));
+    let texels = CodeSlice { bytes: texels.as_flattened(), size: 3 };
+    map::<CodeColumn<[u8; 3]>, Rows<2, 2>>(UnpackSnorm12x2, texels, rows);
     Ok(())
 }
 
@@ -108,14 +110,14 @@ impl UnpackSnorm12x2 {
     }
 }
 
-impl<'a> Kernel<'a, Rows<'_, 2, 2>, &'a mut [[u8; 3]]> for PackSnorm12x2 {
+impl Kernel<Rows<2, 2>, CodeColumn<[u8; 3]>> for PackSnorm12x2 {
     #[inline(always)]
     fn run<V: Simd>(&self, pair: [V; 2]) -> V::Int {
         self.pack(pair)
     }
 }
 
-impl<'a> Kernel<'a, &[[u8; 3]], RowsMut<'a, 2, 2>> for UnpackSnorm12x2 {
+impl Kernel<CodeColumn<[u8; 3]>, Rows<2, 2>> for UnpackSnorm12x2 {
     #[inline(always)]
     fn run<V: Simd>(&self, code: V::Int) -> [V; 2] {
         self.unpack::<V>(code)

@@ -33,11 +33,12 @@
 //! ```
 
 use crate::batch::code_int::{CodeInt, holds};
+use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::storage::Words;
 use crate::batch::{Kernel, map, run};
 use crate::error::LengthMismatch;
 use crate::formula::support::bits::{snorm_max, unorm_max};
-use crate::simd::stream::Fence;
 use crate::simd::{I32x1, Simd, SimdInt};
 
 /// A grid of numbers, and the codes of its points.
@@ -93,14 +94,14 @@ struct Encode<G>(G, u32);
 /// [`Scalar::decode`].
 struct Decode<G>(G);
 
-impl<'a, G: Grid> Kernel<'a, [&[f32]; 1], &'a mut [[u8; 4]]> for Encode<G> {
+impl<G: Grid> Kernel<Columns<1>, CodeColumn<Words>> for Encode<G> {
     #[inline(always)]
     fn run<V: Simd>(&self, [x]: [V; 1]) -> V::Int {
         self.0.nearest(x).low_bits(self.1)
     }
 }
 
-impl<'a, G: Grid> Kernel<'a, &[[u8; 4]], [&'a mut [f32]; 1]> for Decode<G> {
+impl<G: Grid> Kernel<CodeColumn<Words>, Columns<1>> for Decode<G> {
     #[inline(always)]
     fn run<V: Simd>(&self, code: V::Int) -> [V; 1] {
         [self.0.value::<V>(code)]
@@ -153,17 +154,15 @@ macro_rules! scalars {
         impl $grid {
             #[inline(never)]
             fn encode_slice(self, values: &[f32], codes: CodesMut<'_>) {
-                let kernel = |values: [&[f32]; 1], codes: &mut [u8]| {
-                    map(Encode(self, self.bits), values, codes.as_chunks_mut().0);
-                };
-                layout::encode(&kernel, 4, Vectors::Columns([values]), codes);
+                layout::encode(Vectors::Columns([values]), codes, &|values, codes| {
+                    map::<Columns<1>, CodeColumn<Words>>(Encode(self, self.bits), values, codes);
+                });
             }
             #[inline(never)]
             fn decode_slice(self, codes: Codes<'_>, values: &mut [f32]) {
-                let kernel = layout::decode_kernel(|codes: &[u8], values, fence: &Fence<'_>| {
-                    run(Decode(self), codes.as_chunks().0, values, fence);
+                layout::decode(codes, VectorsMut::Columns([values]), &|codes, values, fence| {
+                    run::<CodeColumn<Words>, Columns<1>>(Decode(self), codes, values, fence);
                 });
-                layout::decode(&kernel, 4, codes, VectorsMut::Columns([values]));
             }
         }
     )*};

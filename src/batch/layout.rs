@@ -3,17 +3,14 @@
 
 use bytemuck::Pod;
 
-use super::columns::{Rows, RowsMut};
-use super::storage::{CodeBytes, Word, swap_if_big_endian};
+use super::columns::{Columns, Rows};
+use super::storage::{CodeSlice, CodeSliceMut, MAX_CODE, copy, swap_if_big_endian};
 use super::{Kernel, map};
 use crate::simd::Simd;
 use crate::simd::stream::{self, Fence};
 
 /// Elements that are converted at a time: more where each part costs a check of the processor.
 pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { 64 };
-
-/// Size of the largest code in bytes.
-const MAX_CODE: usize = 12;
 
 /// Vectors of `K` components to read.
 #[derive(Clone, Copy)]
@@ -35,16 +32,14 @@ pub enum VectorsMut<'a, const K: usize> {
 /// Codes to read, without gaps.
 #[derive(Clone, Copy)]
 pub struct Codes<'a> {
-    bytes: &'a [u8],
-    size: usize,
+    codes: CodeSlice<'a>,
     /// Size of the native integers that a code consists of, or 1 if they are little-endian.
     native: usize,
 }
 
 /// Codes to write, without gaps.
 pub struct CodesMut<'a> {
-    bytes: &'a mut [u8],
-    size: usize,
+    codes: CodeSliceMut<'a>,
     /// See [`Codes`].
     native: usize,
 }
@@ -78,12 +73,51 @@ impl<'a> Codes<'a> {
     #[inline]
     pub(crate) fn native<C: Pod>(codes: &'a [C]) -> Self {
         let bytes = bytemuck::cast_slice(codes);
-        Codes { bytes, size: size_of::<C>(), native: align_of::<C>() }
+        Codes { codes: CodeSlice { bytes, size: size_of::<C>() }, native: align_of::<C>() }
     }
 
     #[inline]
     pub(crate) fn little_endian(bytes: &'a [u8], size: usize) -> Self {
-        Codes { bytes, size, native: 1 }
+        Codes { codes: CodeSlice { bytes, size }, native: 1 }
+    }
+
+    pub(crate) fn len(self) -> usize {
+        self.codes.bytes.len().checked_div(self.codes.size).unwrap_or(0)
+    }
+
+    /// At most [`PART`] codes at a time.
+    pub(crate) fn parts(self) -> impl Iterator<Item = Self> {
+        let Codes { codes: CodeSlice { bytes, size }, native } = self;
+        bytes
+            .chunks((PART * size).max(1))
+            .map(move |bytes| Codes { codes: CodeSlice { bytes, size }, native })
+    }
+
+    /// The first `len` codes, and the others.
+    fn split_at(self, len: usize) -> (Self, Self) {
+        let CodeSlice { bytes, size } = self.codes;
+        let (first, others) = bytes.split_at(len.saturating_mul(size).min(bytes.len()));
+        let codes = |bytes| Codes { codes: CodeSlice { bytes, size }, ..self };
+        (codes(first), codes(others))
+    }
+
+    /// Whether their bytes are little-endian.
+    fn is_direct(self) -> bool {
+        cfg!(target_endian = "little") || self.native == 1
+    }
+
+    /// Calls a kernel with codes, at most [`PART`] of them.
+    pub(crate) fn read(self, kernel: impl FnOnce(CodeSlice<'_>)) {
+        if self.is_direct() {
+            return kernel(self.codes);
+        }
+        let CodeSlice { bytes, size } = self.codes;
+        let mut buffer = [0; MAX_CODE * PART];
+        if let Some(swapped) = buffer.get_mut(..bytes.len()) {
+            copy(bytes, swapped);
+            swap_if_big_endian(swapped, self.native);
+            kernel(CodeSlice { bytes: swapped, size });
+        }
     }
 }
 
@@ -91,72 +125,61 @@ impl<'a> CodesMut<'a> {
     #[inline]
     pub(crate) fn native<C: Pod>(codes: &'a mut [C]) -> Self {
         let bytes = bytemuck::cast_slice_mut(codes);
-        CodesMut { bytes, size: size_of::<C>(), native: align_of::<C>() }
+        CodesMut { codes: CodeSliceMut { bytes, size: size_of::<C>() }, native: align_of::<C>() }
     }
 
     #[inline]
     pub(crate) fn little_endian(bytes: &'a mut [u8], size: usize) -> Self {
-        CodesMut { bytes, size, native: 1 }
+        CodesMut { codes: CodeSliceMut { bytes, size }, native: 1 }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.codes.bytes.len().checked_div(self.codes.size).unwrap_or(0)
+    }
+
+    /// At most [`PART`] codes at a time.
+    pub(crate) fn parts(self) -> impl Iterator<Item = Self> {
+        let CodesMut { codes: CodeSliceMut { bytes, size }, native } = self;
+        bytes
+            .chunks_mut((PART * size).max(1))
+            .map(move |bytes| CodesMut { codes: CodeSliceMut { bytes, size }, native })
+    }
+
+    /// Lets a kernel write codes.
+    pub(crate) fn write(self, kernel: impl FnOnce(CodeSliceMut<'_>)) {
+        let CodeSliceMut { bytes, size } = self.codes;
+        kernel(CodeSliceMut { bytes: &mut *bytes, size });
+        swap_if_big_endian(bytes, self.native);
     }
 }
 
-/// Encodes vectors of any layout. The kernel gives codes of `kernel_size` bytes: their own size or, as
-/// words, 4.
+/// Encodes vectors of any layout.
 #[inline(never)]
 pub(crate) fn encode<const K: usize>(
-    kernel: &dyn Fn([&[f32]; K], &mut [u8]),
-    kernel_size: usize,
     vectors: Vectors<'_, K>,
     codes: CodesMut<'_>,
+    kernel: &dyn Fn([&[f32]; K], CodeSliceMut<'_>),
 ) {
-    let CodesMut { bytes, size, native } = codes;
-    match vectors {
-        Vectors::Columns(columns) if kernel_size == size => kernel(columns, bytes),
-        _ => {
-            let mut buffer = [[0.0; PART]; K];
-            let mut words = [0; 4 * PART];
-            for (part, bytes) in bytes.chunks_mut((PART * size).max(1)).enumerate() {
-                let len = bytes.len().checked_div(size).unwrap_or(0);
-                let columns = vectors.part(part * PART, len, &mut buffer);
-                if kernel_size == size {
-                    kernel(columns, bytes);
-                } else if let Some(words) = words.get_mut(..4 * len) {
-                    kernel(columns, words);
-                    narrow(words, bytes, size);
-                }
-            }
-        }
+    if let Vectors::Columns(columns) = vectors {
+        return codes.write(|codes| kernel(columns, codes));
     }
-    swap_if_big_endian(bytes, native);
+    let mut buffer = [[0.0; PART]; K];
+    for (part, codes) in codes.parts().enumerate() {
+        let columns = vectors.part(part * PART, codes.len(), &mut buffer);
+        codes.write(|codes| kernel(columns, codes));
+    }
 }
 
-/// What a decoding kernel does: writes the vectors of codes. The fence is dropped after it returns.
-pub(crate) type DecodeColumns<'k, const K: usize> =
-    &'k dyn for<'a> Fn(&[u8], [&'a mut [f32]; K], &Fence<'a>);
-
-/// A closure as a decoding kernel, whose lifetimes rustc does not infer.
-#[inline(always)]
-pub(crate) fn decode_kernel<F, const K: usize>(kernel: F) -> F
-where
-    F: for<'a> Fn(&[u8], [&'a mut [f32]; K], &Fence<'a>),
-{
-    kernel
-}
-
-/// Decodes to vectors of any layout. The kernel takes codes of `kernel_size` bytes: their own size or,
-/// as words, 4.
+/// Decodes to vectors of any layout. Of what the kernel streams, the fence is dropped here.
 #[inline(never)]
 pub(crate) fn decode<const K: usize>(
-    kernel: DecodeColumns<'_, K>,
-    kernel_size: usize,
     mut codes: Codes<'_>,
     mut vectors: VectorsMut<'_, K>,
+    kernel: &dyn Fn(CodeSlice<'_>, [&mut [f32]; K], &Fence),
 ) {
-    let is_direct = codes.is_direct(kernel_size);
     let mut buffer = [[0.0; PART]; K];
-    let mut code_buffer = [0; MAX_CODE * PART];
     let fence = Fence::new(vectors.is_large());
-    let part_len = if is_direct && vectors.is_columns() { usize::MAX } else { PART };
+    let part_len = if codes.is_direct() && vectors.is_columns() { usize::MAX } else { PART };
     // Streaming stores begin after the vectors that are not aligned.
     let mut unaligned = if fence.streams() { vectors.unaligned() } else { 0 };
     while codes.len() > 0 {
@@ -164,15 +187,9 @@ pub(crate) fn decode<const K: usize>(
         let (codes_part, vectors_part);
         (codes_part, codes) = codes.split_at(len);
         (vectors_part, vectors) = vectors.split_at(len);
-        let bytes = if is_direct {
-            codes_part.bytes
-        } else {
-            codes_part.load(kernel_size, &mut code_buffer)
-        };
-        match vectors_part {
-            VectorsMut::Columns(columns) => kernel(bytes, columns, &fence),
-            rows => rows.write(&mut buffer, |columns| kernel(bytes, columns, &Fence::new(false))),
-        }
+        codes_part.read(|codes| {
+            vectors_part.write(&mut buffer, |columns| kernel(codes, columns, &fence));
+        });
         unaligned = 0;
     }
 }
@@ -186,100 +203,28 @@ pub(crate) fn transcode(
     to: CodesMut<'_>,
 ) {
     let mut buffer = [[0.0; PART]; 3];
-    for (from, bytes) in from.parts().zip(to.bytes.chunks_mut((PART * to.size).max(1))) {
+    for (from, to) in from.parts().zip(to.parts()) {
         let len = from.len();
         if let Some(columns) = columns_mut(&mut buffer, len) {
             decode(from, VectorsMut::Columns(columns));
         }
-        let codes = CodesMut { bytes, size: to.size, native: to.native };
-        encode(Vectors::Columns(columns(&buffer, len)), codes);
+        encode(Vectors::Columns(columns(&buffer, len)), to);
     }
 }
 
-/// Changes codes in place. The kernel takes and gives codes of `kernel_size` bytes: their own size or,
-/// as words, 4.
+/// Changes codes in place.
 #[inline(never)]
-pub(crate) fn map_codes(
-    kernel: &dyn Fn(&[u8], &mut [u8]),
-    kernel_size: usize,
-    codes: CodesMut<'_>,
-) {
-    let CodesMut { bytes, size, native } = codes;
-    let (mut input, mut output) = ([0; MAX_CODE * PART], [0; MAX_CODE * PART]);
-    for bytes in bytes.chunks_mut((PART * size).max(1)) {
-        let part = Codes { bytes, size, native };
-        let Some(changed) = output.get_mut(..part.len() * kernel_size) else { return };
-        kernel(part.load(kernel_size, &mut input), changed);
-        if kernel_size == size {
-            copy(changed, bytes);
-        } else {
-            narrow(changed, bytes, size);
+pub(crate) fn map_codes(codes: CodesMut<'_>, kernel: &dyn Fn(CodeSlice<'_>, CodeSliceMut<'_>)) {
+    let mut buffer = [0; MAX_CODE * PART];
+    for part in codes.parts() {
+        let native = part.native;
+        let CodeSliceMut { bytes, size } = part.codes;
+        if let Some(before) = buffer.get_mut(..bytes.len()) {
+            copy(bytes, before);
+            swap_if_big_endian(before, native);
+            kernel(CodeSlice { bytes: before, size }, CodeSliceMut { bytes: &mut *bytes, size });
+            swap_if_big_endian(bytes, native);
         }
-        swap_if_big_endian(bytes, native);
-    }
-}
-
-impl<'a> Codes<'a> {
-    pub(crate) fn len(self) -> usize {
-        self.bytes.len().checked_div(self.size).unwrap_or(0)
-    }
-
-    /// Whether a kernel can read them as they are.
-    fn is_direct(self, kernel_size: usize) -> bool {
-        kernel_size == self.size && (cfg!(target_endian = "little") || self.native == 1)
-    }
-
-    /// At most [`PART`] codes at a time.
-    pub(crate) fn parts(self) -> impl Iterator<Item = Self> {
-        self.bytes.chunks((PART * self.size).max(1)).map(move |bytes| Codes { bytes, ..self })
-    }
-
-    fn split_at(self, len: usize) -> (Self, Self) {
-        let at = len.saturating_mul(self.size).min(self.bytes.len());
-        let (before, after) = self.bytes.split_at(at);
-        (Codes { bytes: before, ..self }, Codes { bytes: after, ..self })
-    }
-
-    /// Calls a kernel that takes codes of their own size with at most [`PART`] of them.
-    pub(crate) fn with_kernel_bytes(self, kernel: impl FnOnce(&[u8])) {
-        if self.is_direct(self.size) {
-            kernel(self.bytes);
-        } else {
-            kernel(self.load(self.size, &mut [0; MAX_CODE * PART]));
-        }
-    }
-
-    /// At most [`PART`] codes as a kernel takes them.
-    fn load<'b>(self, kernel_size: usize, buffer: &'b mut [u8; MAX_CODE * PART]) -> &'b [u8] {
-        let Some(loaded) = buffer.get_mut(..self.len() * kernel_size) else { return &[] };
-        if cfg!(target_endian = "big") && self.native > 1 {
-            let mut little_endian = [0; MAX_CODE * PART];
-            let Some(copied) = little_endian.get_mut(..self.bytes.len()) else { return &[] };
-            copy(self.bytes, copied);
-            swap_if_big_endian(copied, self.native);
-            widen_or_copy(copied, self.size, loaded, kernel_size);
-        } else {
-            widen_or_copy(self.bytes, self.size, loaded, kernel_size);
-        }
-        loaded
-    }
-}
-
-impl<'a> CodesMut<'a> {
-    pub(crate) fn len(&self) -> usize {
-        self.bytes.len().checked_div(self.size).unwrap_or(0)
-    }
-
-    /// At most [`PART`] codes at a time.
-    pub(crate) fn parts(self) -> impl Iterator<Item = Self> {
-        let CodesMut { bytes, size, native } = self;
-        bytes.chunks_mut((PART * size).max(1)).map(move |bytes| CodesMut { bytes, size, native })
-    }
-
-    /// Lets a kernel write codes of their own size.
-    pub(crate) fn write(self, kernel: impl FnOnce(&mut [u8])) {
-        kernel(self.bytes);
-        swap_if_big_endian(self.bytes, self.native);
     }
 }
 
@@ -423,22 +368,21 @@ fn scatter<const K: usize>(columns: &[[f32; PART]; K], len: usize, rows: &mut [u
 
 #[inline(never)]
 fn gather_rows<const N: usize, const K: usize>(rows: &[u8], to: [&mut [f32]; K]) {
-    let len = to[0].len();
-    let rows = rows.as_chunks().0.as_chunks().0;
-    map(Transpose, Rows::<N, K>(rows.get(..len).unwrap_or_default()), to);
+    let len = to.first().map_or(0, |column| column.len());
+    let rows = rows.as_chunks().0.as_chunks().0.get(..len).unwrap_or_default();
+    map::<Rows<N, K>, Columns<K>>(Transpose, rows, to);
 }
 
 #[inline(never)]
 fn scatter_rows<const N: usize, const K: usize>(from: [&[f32]; K], rows: &mut [u8]) {
-    map(Transpose, from, RowsMut::<N, K>(rows.as_chunks_mut().0.as_chunks_mut().0));
+    let rows = rows.as_chunks_mut().0.as_chunks_mut().0;
+    map::<Columns<K>, Rows<N, K>>(Transpose, from, rows);
 }
 
 /// Between rows and columns.
 struct Transpose;
 
-impl<'a, const N: usize, const K: usize> Kernel<'a, Rows<'_, N, K>, [&'a mut [f32]; K]>
-    for Transpose
-{
+impl<const N: usize, const K: usize> Kernel<Rows<N, K>, Columns<K>> for Transpose {
     // It has no shuffles; the compiler does better with a scalar loop.
     const USE_WIDE: bool = false;
 
@@ -448,56 +392,11 @@ impl<'a, const N: usize, const K: usize> Kernel<'a, Rows<'_, N, K>, [&'a mut [f3
     }
 }
 
-impl<'a, const N: usize, const K: usize> Kernel<'a, [&[f32]; K], RowsMut<'a, N, K>> for Transpose {
+impl<const N: usize, const K: usize> Kernel<Columns<K>, Rows<N, K>> for Transpose {
     const USE_WIDE: bool = false;
 
     #[inline(always)]
     fn run<V: Simd>(&self, vectors: [V; K]) -> [V; K] {
         vectors
-    }
-}
-
-/// From words to codes of 1 to 3 bytes.
-#[inline(never)]
-fn narrow(words: &[u8], codes: &mut [u8], size: usize) {
-    let words = words.as_chunks::<4>().0;
-    match size {
-        1 => map(Resize, words, codes.as_chunks_mut::<1>().0),
-        2 => map(Resize, words, codes.as_chunks_mut::<2>().0),
-        _ => map(Resize, words, codes.as_chunks_mut::<3>().0),
-    }
-}
-
-/// From codes of 1 to 3 bytes to words, or from codes to themselves.
-#[inline(never)]
-fn widen_or_copy(codes: &[u8], size: usize, words: &mut [u8], kernel_size: usize) {
-    if size == kernel_size {
-        return copy(codes, words);
-    }
-    let words = words.as_chunks_mut::<4>().0;
-    match size {
-        1 => map(Resize, codes.as_chunks::<1>().0, words),
-        2 => map(Resize, codes.as_chunks::<2>().0, words),
-        _ => map(Resize, codes.as_chunks::<3>().0, words),
-    }
-}
-
-/// Between codes and words.
-struct Resize;
-
-impl<'a, A: CodeBytes<Shape = Word>, B: CodeBytes<Shape = Word>> Kernel<'a, &[A], &'a mut [B]>
-    for Resize
-{
-    #[inline(always)]
-    fn run<V: Simd>(&self, code: V::Int) -> V::Int {
-        code
-    }
-}
-
-/// As many elements as both have.
-#[inline(always)]
-fn copy(from: &[u8], to: &mut [u8]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
     }
 }

@@ -26,6 +26,84 @@ impl CodeShape for Words3 {
     type In<V: Simd> = [V::Int; 3];
 }
 
+/// A code of `S` in lanes.
+pub(crate) type ShapeIn<S, V> = <S as CodeShape>::In<V>;
+
+/// Size of the largest code in bytes.
+pub(crate) const MAX_CODE: usize = 12;
+
+/// Little-endian codes of `size` bytes, without gaps.
+#[derive(Clone, Copy)]
+pub(crate) struct CodeSlice<'a> {
+    pub(crate) bytes: &'a [u8],
+    pub(crate) size: usize,
+}
+
+/// [`CodeSlice`] to write.
+pub(crate) struct CodeSliceMut<'a> {
+    pub(crate) bytes: &'a mut [u8],
+    pub(crate) size: usize,
+}
+
+/// Codes of one size, the [`CodeBytes`], or of any that a word holds: [`Words`].
+pub(crate) trait CodeKind: 'static {
+    type Shape: CodeShape;
+
+    /// Block `i`.
+    fn load<V: Simd>(codes: CodeSlice<'_>, i: usize) -> Option<ShapeIn<Self::Shape, V>>;
+    /// Writes block `i`.
+    fn store<V: Simd>(code: ShapeIn<Self::Shape, V>, codes: &mut CodeSliceMut<'_>, i: usize);
+}
+
+/// Codes of one to four bytes. Their size is looked at for each block.
+pub(crate) struct Words;
+
+impl CodeKind for Words {
+    type Shape = Word;
+
+    #[inline(always)]
+    fn load<V: Simd>(codes: CodeSlice<'_>, i: usize) -> Option<V::Int> {
+        match codes.size {
+            1 => <[u8; 1] as CodeKind>::load::<V>(codes, i),
+            2 => <[u8; 2] as CodeKind>::load::<V>(codes, i),
+            3 => <[u8; 3] as CodeKind>::load::<V>(codes, i),
+            _ => <[u8; 4] as CodeKind>::load::<V>(codes, i),
+        }
+    }
+    #[inline(always)]
+    fn store<V: Simd>(code: V::Int, codes: &mut CodeSliceMut<'_>, i: usize) {
+        match codes.size {
+            1 => <[u8; 1] as CodeKind>::store::<V>(code, codes, i),
+            2 => <[u8; 2] as CodeKind>::store::<V>(code, codes, i),
+            3 => <[u8; 3] as CodeKind>::store::<V>(code, codes, i),
+            _ => <[u8; 4] as CodeKind>::store::<V>(code, codes, i),
+        }
+    }
+}
+
+impl<B: CodeBytes> CodeKind for B {
+    type Shape = B::Shape;
+
+    #[inline(always)]
+    fn load<V: Simd>(codes: CodeSlice<'_>, i: usize) -> Option<CodeIn<B, V>> {
+        let size = V::LANES * size_of::<B>();
+        let bytes = codes.bytes.get(i * size..)?.get(..size)?;
+        let elements = bytemuck::try_cast_slice(bytes).ok()?;
+        Some(B::load::<V>(V::split(elements).0.first()?))
+    }
+    #[inline(always)]
+    fn store<V: Simd>(code: CodeIn<B, V>, codes: &mut CodeSliceMut<'_>, i: usize) {
+        let size = V::LANES * size_of::<B>();
+        if let Some(bytes) = codes.bytes.get_mut(i * size..)
+            && let Some(bytes) = bytes.get_mut(..size)
+            && let Ok(elements) = bytemuck::try_cast_slice_mut(bytes)
+            && let Some(block) = V::split_mut(elements).0.first_mut()
+        {
+            B::store::<V>(code, block);
+        }
+    }
+}
+
 /// A code in memory: its little-endian bytes, at any alignment.
 pub(crate) trait CodeBytes: Pod {
     type Shape: CodeShape;
@@ -145,7 +223,7 @@ impl CodeBytes for [u8; 12] {
 }
 
 /// A code with the bytes `B`, in lanes.
-pub(crate) type CodeIn<B, V> = <<B as CodeBytes>::Shape as CodeShape>::In<V>;
+pub(crate) type CodeIn<B, V> = ShapeIn<<B as CodeBytes>::Shape, V>;
 
 /// The native code of one lane, whose little-endian bytes are a `B`, as large as `C`.
 #[inline(always)]
@@ -172,5 +250,13 @@ pub(crate) fn swap_if_big_endian(bytes: &mut [u8], element: usize) {
         for integer in bytes.chunks_exact_mut(element) {
             integer.reverse();
         }
+    }
+}
+
+/// Copies as many bytes as both have.
+#[inline(always)]
+pub(crate) fn copy(from: &[u8], to: &mut [u8]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
     }
 }

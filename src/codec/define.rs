@@ -44,7 +44,7 @@ macro_rules! row_kernels {
                 const { $value }
             }
         }
-        kernels!($name: { size_of::<$code>() } bytes);
+        kernels!($name: [u8; size_of::<$code>()]);
         const KERNELS: &$name = &$name;
     };
     ($name:ident, $code:ty, $formula:ty, $value:expr; $flag:ident $($rest:ident)*) => {

@@ -25,7 +25,7 @@ use super::support::bits::{snorm_max, unorm_max};
 use super::support::half;
 use super::support::sign::{mirror_point, sign_bit};
 use super::{Code, Formula, Symmetric, kernels};
-use crate::batch::storage::{CodeShape, Word, Words3};
+use crate::batch::storage::{CodeShape, Word, Words, Words3};
 use crate::simd::math::{inv_sqrt, sqrt};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map2, map3};
 
@@ -938,11 +938,11 @@ impl Formula for Floats {
 }
 
 kernels!(
-    SnormXyz: 4 bytes,
-    Snorm16Xyz: 6 bytes,
-    UnormXyz: 4 bytes,
-    Unorm16Xyz: 6 bytes,
-    HalfXyz: 6 bytes,
-    BestFit: 3 bytes,
-    Floats: 12 bytes,
+    SnormXyz: Words,
+    Snorm16Xyz: [u8; 6],
+    UnormXyz: Words,
+    Unorm16Xyz: [u8; 6],
+    HalfXyz: [u8; 6],
+    BestFit: [u8; 3],
+    Floats: [u8; 12],
 );

@@ -22,7 +22,7 @@ use super::support::bits::snorm_max;
 use super::support::closest::{Closest, corners};
 use super::support::sign::mirror_point;
 use super::{Formula, Symmetric, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_of_half};
 use crate::simd::{Simd, SimdInt, Vec3, map_vec, map2};
 
@@ -394,4 +394,4 @@ fn div_rem<V: Simd, const D: i32>(n: V::Int) -> (V::Int, V::Int) {
     (high.shl(16) + low, rest - low * D)
 }
 
-kernels!(Cube<Linear>: 4 bytes, Cube<WarpedFace>: 4 bytes, AngularCube: 4 bytes);
+kernels!(Cube<Linear>: Words, Cube<WarpedFace>: Words, AngularCube: Words);

@@ -38,7 +38,7 @@ use super::support::bits::Pair;
 use super::support::closest::Closest;
 use super::support::sign::{negate_if, not_if};
 use super::{Formula, Symmetric, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, inv_sqrt, sin_cos_of_half, sin_cos_of_one, sqrt};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
 
@@ -706,13 +706,13 @@ impl<P: Projection, S: Stretch> Symmetric for Disk<P, S> {
 }
 
 kernels!(
-    Disk<Stereo, Unstretched>: 4 bytes,
-    Disk<Stereo, Concentric>: 4 bytes,
-    Disk<Stereo, Ellipse>: 4 bytes,
-    Disk<EqArea, Unstretched>: 4 bytes,
-    Disk<EqArea, Concentric>: 4 bytes,
-    Disk<EqArea, Ellipse>: 4 bytes,
-    Disk<EqDist, Unstretched>: 4 bytes,
-    Disk<EqDist, Concentric>: 4 bytes,
-    Disk<EqDist, Ellipse>: 4 bytes,
+    Disk<Stereo, Unstretched>: Words,
+    Disk<Stereo, Concentric>: Words,
+    Disk<Stereo, Ellipse>: Words,
+    Disk<EqArea, Unstretched>: Words,
+    Disk<EqArea, Concentric>: Words,
+    Disk<EqArea, Ellipse>: Words,
+    Disk<EqDist, Unstretched>: Words,
+    Disk<EqDist, Concentric>: Words,
+    Disk<EqDist, Ellipse>: Words,
 );

@@ -19,7 +19,7 @@
 
 use super::support::closest::Closest;
 use super::{Formula, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
 use crate::simd::{Simd, SimdInt, Vec3, map2};
 
@@ -135,4 +135,4 @@ impl Formula for Fibonacci {
     }
 }
 
-kernels!(Fibonacci: 4 bytes);
+kernels!(Fibonacci: Words);

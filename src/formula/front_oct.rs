@@ -23,7 +23,7 @@
 use super::oct::{Central, Oct, triangle_around};
 use super::support::closest::Closest;
 use super::{Formula, kernels, oct::Projection};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::sqrt;
 use crate::simd::{Simd, Vec3, map_vec};
 
@@ -117,4 +117,4 @@ impl Formula for FrontOct {
     }
 }
 
-kernels!(FrontOct: 4 bytes);
+kernels!(FrontOct: Words);

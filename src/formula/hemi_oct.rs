@@ -20,7 +20,7 @@ use super::support::bits::Pair;
 use super::support::closest::{Closest, corners};
 use super::support::sign::{negate_if, not_if};
 use super::{Formula, Symmetric, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::{Simd, SimdInt, Vec3, map2};
 
 /// Hemi-oct.
@@ -162,4 +162,4 @@ impl Formula for SignedOct {
     }
 }
 
-kernels!(HemiOct: 4 bytes, SignedOct: 4 bytes);
+kernels!(HemiOct: Words, SignedOct: Words);

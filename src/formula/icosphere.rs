@@ -220,4 +220,4 @@ impl Formula for Icosphere {
     }
 }
 
-kernels!(Icosphere: 1 bytes);
+kernels!(Icosphere: [u8; 1]);

@@ -23,7 +23,7 @@ use super::support::bits::unorm_max;
 use super::support::closest::{Closest, floor_and_ceil};
 use super::support::sign::negate_if;
 use super::{Formula, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, horner, sin_cos_quarter_turns, sqrt};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3};
 
@@ -240,4 +240,4 @@ impl Parallels for Adaptive {
     }
 }
 
-kernels!(LatLong<Uniform>: 4 bytes, LatLong<Adaptive>: 4 bytes);
+kernels!(LatLong<Uniform>: Words, LatLong<Adaptive>: Words);

@@ -29,10 +29,10 @@ pub(crate) mod support;
 #[cfg(feature = "cartesian")]
 pub(crate) mod xy_only;
 
+use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{CodeBytes, CodeShape, Word};
+use crate::batch::storage::{CodeKind, CodeShape, ShapeIn, Word};
 use crate::batch::{Kernel, map, run};
-use crate::simd::stream::Fence;
 use crate::simd::{Simd, Vec3};
 use support::sanitize::sanitize;
 use support::sign::mirror_vector;
@@ -82,7 +82,7 @@ pub(crate) trait Formula: Copy + Send + Sync + 'static {
 }
 
 /// A code of the formula `F` in lanes.
-pub(crate) type Code<F, V> = <<F as Formula>::Shape as CodeShape>::In<V>;
+pub(crate) type Code<F, V> = ShapeIn<<F as Formula>::Shape, V>;
 
 /// A formula whose decoder is the same, bit for bit, in all octants: mirroring a code mirrors its
 /// vector. A hemisphere's formula is so in its four. It has an inherent `points_per_octant`.
@@ -120,10 +120,9 @@ pub(crate) struct Decode<S>(pub(crate) S);
 /// [`Formula::mirror`].
 pub(crate) struct Mirror<S>(pub(crate) S, pub(crate) [bool; 3]);
 
-impl<'a, S: Source, B, const PRECISE: bool> Kernel<'a, [&[f32]; 3], &'a mut [B]>
-    for Encode<S, PRECISE>
+impl<S: Source, K, const PRECISE: bool> Kernel<Columns<3>, CodeColumn<K>> for Encode<S, PRECISE>
 where
-    B: CodeBytes<Shape = <S::Formula as Formula>::Shape>,
+    K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
     #[inline(always)]
     fn run<V: Simd>(&self, v: [V; 3]) -> Code<S::Formula, V> {
@@ -133,9 +132,9 @@ where
     }
 }
 
-impl<'a, S: Source, B> Kernel<'a, &[B], [&'a mut [f32]; 3]> for Decode<S>
+impl<S: Source, K> Kernel<CodeColumn<K>, Columns<3>> for Decode<S>
 where
-    B: CodeBytes<Shape = <S::Formula as Formula>::Shape>,
+    K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
     #[inline(always)]
     fn run<V: Simd>(&self, code: Code<S::Formula, V>) -> [V; 3] {
@@ -143,9 +142,9 @@ where
     }
 }
 
-impl<'a, S: Source, B> Kernel<'a, &[B], &'a mut [B]> for Mirror<S>
+impl<S: Source, K> Kernel<CodeColumn<K>, CodeColumn<K>> for Mirror<S>
 where
-    B: CodeBytes<Shape = <S::Formula as Formula>::Shape>,
+    K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
     // The least used of the kernels would be half of what all of them cost to compile.
     const USE_AVX512: bool = false;
@@ -169,10 +168,9 @@ pub trait Kernels: Sync + 'static {
     fn mirror(&self, codes: CodesMut<'_>, flips: [bool; 3]);
 }
 
-/// Implements [`Kernels`] for formulas whose kernels take codes of a number of bytes: 4 for words of
-/// any size, or the codec's own.
+/// Implements [`Kernels`] for formulas, or for codecs, by the kind of their codes: `Words`, or bytes.
 macro_rules! kernels {
-    ($($source:ty: $size:tt bytes),* $(,)?) => { $(
+    ($($source:ty: $codes:ty),* $(,)?) => { $(
         impl $crate::formula::Kernels for $source {
             #[inline(never)]
             fn encode(
@@ -180,7 +178,7 @@ macro_rules! kernels {
                 vectors: $crate::batch::layout::Vectors<'_, 3>,
                 codes: $crate::batch::layout::CodesMut<'_>,
             ) {
-                $crate::formula::encode::<_, $size, false>(*self, vectors, codes);
+                $crate::formula::encode::<_, $codes, false>(*self, vectors, codes);
             }
             #[inline(never)]
             fn encode_precise(
@@ -188,7 +186,7 @@ macro_rules! kernels {
                 vectors: $crate::batch::layout::Vectors<'_, 3>,
                 codes: $crate::batch::layout::CodesMut<'_>,
             ) {
-                $crate::formula::encode::<_, $size, true>(*self, vectors, codes);
+                $crate::formula::encode::<_, $codes, true>(*self, vectors, codes);
             }
             #[inline(never)]
             fn decode(
@@ -196,11 +194,11 @@ macro_rules! kernels {
                 codes: $crate::batch::layout::Codes<'_>,
                 vectors: $crate::batch::layout::VectorsMut<'_, 3>,
             ) {
-                $crate::formula::decode::<_, $size>(*self, codes, vectors);
+                $crate::formula::decode::<_, $codes>(*self, codes, vectors);
             }
             #[inline(never)]
             fn mirror(&self, codes: $crate::batch::layout::CodesMut<'_>, flips: [bool; 3]) {
-                $crate::formula::mirror::<_, $size>(*self, codes, flips);
+                $crate::formula::mirror::<_, $codes>(*self, codes, flips);
             }
         }
     )* };
@@ -208,40 +206,34 @@ macro_rules! kernels {
 pub(crate) use kernels;
 
 #[inline(always)]
-pub(crate) fn encode<S: Source, const N: usize, const PRECISE: bool>(
+pub(crate) fn encode<S: Source, K, const PRECISE: bool>(
     source: S,
     vectors: Vectors<'_, 3>,
     codes: CodesMut<'_>,
 ) where
-    [u8; N]: CodeBytes<Shape = <S::Formula as Formula>::Shape>,
+    K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
-    let kernel = |vectors: [&[f32]; 3], codes: &mut [u8]| {
-        map(Encode::<S, PRECISE>(source), vectors, codes.as_chunks_mut::<N>().0);
-    };
-    layout::encode(&kernel, N, vectors, codes);
-}
-
-#[inline(always)]
-pub(crate) fn decode<S: Source, const N: usize>(
-    source: S,
-    codes: Codes<'_>,
-    vectors: VectorsMut<'_, 3>,
-) where
-    [u8; N]: CodeBytes<Shape = <S::Formula as Formula>::Shape>,
-{
-    let kernel = layout::decode_kernel(|codes: &[u8], vectors, fence: &Fence<'_>| {
-        run(Decode(source), codes.as_chunks::<N>().0, vectors, fence);
+    layout::encode(vectors, codes, &|vectors, codes| {
+        map::<Columns<3>, CodeColumn<K>>(Encode::<S, PRECISE>(source), vectors, codes);
     });
-    layout::decode(&kernel, N, codes, vectors);
 }
 
 #[inline(always)]
-pub(crate) fn mirror<S: Source, const N: usize>(source: S, codes: CodesMut<'_>, flips: [bool; 3])
+pub(crate) fn decode<S: Source, K>(source: S, codes: Codes<'_>, vectors: VectorsMut<'_, 3>)
 where
-    [u8; N]: CodeBytes<Shape = <S::Formula as Formula>::Shape>,
+    K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
-    let kernel = |from: &[u8], to: &mut [u8]| {
-        map(Mirror(source, flips), from.as_chunks::<N>().0, to.as_chunks_mut::<N>().0);
-    };
-    layout::map_codes(&kernel, N, codes);
+    layout::decode(codes, vectors, &|codes, vectors, fence| {
+        run::<CodeColumn<K>, Columns<3>>(Decode(source), codes, vectors, fence);
+    });
+}
+
+#[inline(always)]
+pub(crate) fn mirror<S: Source, K>(source: S, codes: CodesMut<'_>, flips: [bool; 3])
+where
+    K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
+{
+    layout::map_codes(codes, &|from, to| {
+        map::<CodeColumn<K>, CodeColumn<K>>(Mirror(source, flips), from, to);
+    });
 }

@@ -39,7 +39,7 @@ use super::support::bits::Pair;
 use super::support::closest::{Closest, corners};
 use super::support::sign::negate_if;
 use super::{Formula, Lattice, Symmetric, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sqrt};
 use crate::simd::{Simd, SimdInt, Vec3, map_vec, map2, map3};
 
@@ -478,4 +478,4 @@ impl Formula for OctUnorm {
     }
 }
 
-kernels!(Oct<Central>: 4 bytes, Oct<Warped>: 4 bytes, Oct<EqualArea>: 4 bytes, OctUnorm: 4 bytes);
+kernels!(Oct<Central>: Words, Oct<Warped>: Words, Oct<EqualArea>: Words, OctUnorm: Words);

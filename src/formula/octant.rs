@@ -18,7 +18,7 @@
 use super::oct::{Central, Projection, Steps, nearest_on_octahedron, triangle_index, triangle_len};
 use super::support::sign::not_if;
 use super::{Formula, Symmetric, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::{Simd, SimdInt, Vec3, map_vec};
 
 /// Baptista's 16 bits.
@@ -119,4 +119,4 @@ impl Symmetric for Octant {
     }
 }
 
-kernels!(Octant: 2 bytes);
+kernels!(Octant: Words);

@@ -13,7 +13,7 @@
 use super::support::bits::Pair;
 use super::support::closest::{Closest, corners};
 use super::{Formula, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_quarter_turns, sqrt};
 use crate::simd::{Simd, SimdInt, Vec3, map2};
 
@@ -101,4 +101,4 @@ impl Formula for PhiZ {
     }
 }
 
-kernels!(PhiZ: 4 bytes);
+kernels!(PhiZ: Words);

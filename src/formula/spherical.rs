@@ -16,7 +16,7 @@ use super::support::bits::Pair;
 use super::support::closest::{Closest, corners};
 use super::support::sign::negate_if;
 use super::{Formula, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sin_cos_quarter_turns, sqrt};
 use crate::simd::{Simd, SimdInt, Vec3, map2};
 
@@ -89,4 +89,4 @@ impl Formula for Spherical {
     }
 }
 
-kernels!(Spherical: 4 bytes);
+kernels!(Spherical: Words);

@@ -23,7 +23,7 @@ use super::support::closest::Closest;
 use super::support::half;
 use super::support::sign::negate_if;
 use super::{Formula, Symmetric, kernels};
-use crate::batch::storage::Word;
+use crate::batch::storage::{Word, Words};
 use crate::simd::math::{inv_sqrt, sqrt};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
 
@@ -358,4 +358,4 @@ impl Symmetric for XyOnly<XyUnorm> {
     }
 }
 
-kernels!(XyOnly<XyUnorm>: 4 bytes, XyOnly<XyHalf>: 4 bytes);
+kernels!(XyOnly<XyUnorm>: Words, XyOnly<XyHalf>: Words);

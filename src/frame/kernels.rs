@@ -1,7 +1,8 @@
 //! The kernels of frame codecs, in any layout.
 
+use crate::batch::columns::{CodeColumn, Columns, Input, Output};
 use crate::batch::layout::{Codes, CodesMut, PART, Vectors, VectorsMut};
-use crate::batch::storage::CodeIn;
+use crate::batch::storage::{CodeIn, CodeSlice, CodeSliceMut};
 use crate::batch::{Kernel, map};
 use crate::simd::{Simd, Vec3};
 
@@ -30,12 +31,12 @@ struct Encode<F, const PRECISE: bool>(F);
 struct Decode<F>(F);
 
 /// Normals and tangents.
-type Frames<'a> = ([&'a [f32]; 3], [&'a [f32]; 4]);
-/// Normals and tangents to write.
-type FramesMut<'a> = ([&'a mut [f32]; 3], [&'a mut [f32]; 4]);
+type Frames = (Columns<3>, Columns<4>);
+type FrameSlices<'a> = <Frames as Input>::Slices<'a>;
+type FrameSlicesMut<'a> = <Frames as Output>::Slices<'a>;
 
-impl<'a, F: FrameFormula, B: FrameBytes, const PRECISE: bool>
-    Kernel<'a, Frames<'_>, (&'a mut [B], [&'a mut [f32]; 1])> for Encode<F, PRECISE>
+impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
+    Kernel<Frames, (CodeColumn<B>, Columns<1>)> for Encode<F, PRECISE>
 {
     #[inline(always)]
     fn run<V: Simd>(
@@ -48,7 +49,7 @@ impl<'a, F: FrameFormula, B: FrameBytes, const PRECISE: bool>
     }
 }
 
-impl<'a, F: FrameFormula, B: FrameBytes> Kernel<'a, &[B], FramesMut<'a>> for Decode<F> {
+impl<F: FrameFormula, B: FrameBytes> Kernel<CodeColumn<B>, Frames> for Decode<F> {
     #[inline(always)]
     fn run<V: Simd>(&self, code: CodeIn<B, V>) -> ([V; 3], [V; 4]) {
         let frame = self.0.decode::<V>(B::to_words::<V>(code));
@@ -87,18 +88,22 @@ pub(super) fn encode<F: FrameFormula, const N: usize, const PRECISE: bool>(
 where
     [u8; N]: FrameBytes,
 {
-    let kernel = |frames: Frames<'_>, codes: &mut [u8], sines: &mut [f32]| {
-        map(Encode::<F, PRECISE>(formula), frames, (codes.as_chunks_mut::<N>().0, [sines]));
-    };
-    encode_parts(&kernel, normals, tangents, codes)
+    encode_parts(normals, tangents, codes, &|frames, codes, sines| {
+        let output = (codes, [sines]);
+        map::<Frames, (CodeColumn<[u8; N]>, Columns<1>)>(
+            Encode::<F, PRECISE>(formula),
+            frames,
+            output,
+        );
+    })
 }
 
 #[inline(never)]
 fn encode_parts(
-    kernel: &dyn Fn(Frames<'_>, &mut [u8], &mut [f32]),
     normals: Vectors<'_, 3>,
     tangents: Vectors<'_, 4>,
     codes: CodesMut<'_>,
+    kernel: &dyn Fn(FrameSlices<'_>, CodeSliceMut<'_>, &mut [f32]),
 ) -> Skew {
     let (mut normal_buffer, mut tangent_buffer) = ([[0.0; PART]; 3], [[0.0; PART]; 4]);
     let mut sines = [0.0; PART];
@@ -126,18 +131,17 @@ pub(super) fn decode<F: FrameFormula, const N: usize>(
 ) where
     [u8; N]: FrameBytes,
 {
-    let kernel = |codes: &[u8], frames: FramesMut<'_>| {
-        map(Decode(formula), codes.as_chunks::<N>().0, frames);
-    };
-    decode_parts(&kernel, codes, normals, tangents);
+    decode_parts(codes, normals, tangents, &|codes, frames| {
+        map::<CodeColumn<[u8; N]>, Frames>(Decode(formula), codes, frames);
+    });
 }
 
 #[inline(never)]
 fn decode_parts(
-    kernel: &dyn Fn(&[u8], FramesMut<'_>),
     codes: Codes<'_>,
     mut normals: VectorsMut<'_, 3>,
     mut tangents: VectorsMut<'_, 4>,
+    kernel: &dyn Fn(CodeSlice<'_>, FrameSlicesMut<'_>),
 ) {
     let (mut normal_buffer, mut tangent_buffer) = ([[0.0; PART]; 3], [[0.0; PART]; 4]);
     for codes in codes.parts() {
@@ -146,7 +150,7 @@ fn decode_parts(
         (tangents_part, tangents) = tangents.split_at(codes.len());
         normals_part.write(&mut normal_buffer, |normals| {
             tangents_part.write(&mut tangent_buffer, |tangents| {
-                codes.with_kernel_bytes(|bytes| kernel(bytes, (normals, tangents)));
+                codes.read(|codes| kernel(codes, (normals, tangents)));
             });
         });
     }

@@ -1,11 +1,11 @@
 //! The trait that every family of rotations implements, and its kernels.
 
+use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{CodeBytes, CodeShape};
+use crate::batch::storage::{CodeBytes, CodeKind, CodeShape, ShapeIn};
 use crate::batch::{Kernel, map, run};
 use crate::formula::support::sanitize::sanitize4;
 use crate::simd::Simd;
-use crate::simd::stream::Fence;
 
 /// A representation of rotations, on any number of lanes. See
 /// [`Formula`](crate::formula::Formula).
@@ -24,7 +24,7 @@ pub(super) trait Rotation: Copy + Send + Sync + 'static {
 }
 
 /// A code of the rotation `R` in lanes.
-pub(super) type Code<R, V> = <<R as Rotation>::Shape as CodeShape>::In<V>;
+pub(super) type Code<R, V> = ShapeIn<<R as Rotation>::Shape, V>;
 
 /// The kernels of a codec, in any layout, compiled here: see [`Kernels`](crate::formula::Kernels).
 pub trait RotationKernels {
@@ -41,8 +41,8 @@ struct Encode<R, const PRECISE: bool>(R);
 /// [`Rotation::decode`].
 struct Decode<R>(R);
 
-impl<'a, R: Rotation, B: CodeBytes<Shape = R::Shape>, const PRECISE: bool>
-    Kernel<'a, [&[f32]; 4], &'a mut [B]> for Encode<R, PRECISE>
+impl<R: Rotation, K: CodeKind<Shape = R::Shape>, const PRECISE: bool>
+    Kernel<Columns<4>, CodeColumn<K>> for Encode<R, PRECISE>
 {
     #[inline(always)]
     fn run<V: Simd>(&self, q: [V; 4]) -> Code<R, V> {
@@ -51,9 +51,7 @@ impl<'a, R: Rotation, B: CodeBytes<Shape = R::Shape>, const PRECISE: bool>
     }
 }
 
-impl<'a, R: Rotation, B: CodeBytes<Shape = R::Shape>> Kernel<'a, &[B], [&'a mut [f32]; 4]>
-    for Decode<R>
-{
+impl<R: Rotation, K: CodeKind<Shape = R::Shape>> Kernel<CodeColumn<K>, Columns<4>> for Decode<R> {
     #[inline(always)]
     fn run<V: Simd>(&self, code: Code<R, V>) -> [V; 4] {
         self.0.decode::<V>(code)
@@ -68,10 +66,9 @@ pub(super) fn encode<R: Rotation, const N: usize, const PRECISE: bool>(
 ) where
     [u8; N]: CodeBytes<Shape = R::Shape>,
 {
-    let kernel = |q: [&[f32]; 4], codes: &mut [u8]| {
-        map(Encode::<R, PRECISE>(rotation), q, codes.as_chunks_mut::<N>().0);
-    };
-    layout::encode(&kernel, N, quaternions, codes);
+    layout::encode(quaternions, codes, &|q, codes| {
+        map::<Columns<4>, CodeColumn<[u8; N]>>(Encode::<R, PRECISE>(rotation), q, codes);
+    });
 }
 
 #[inline(always)]
@@ -82,8 +79,7 @@ pub(super) fn decode<R: Rotation, const N: usize>(
 ) where
     [u8; N]: CodeBytes<Shape = R::Shape>,
 {
-    let kernel = layout::decode_kernel(|codes: &[u8], q, fence: &Fence<'_>| {
-        run(Decode(rotation), codes.as_chunks::<N>().0, q, fence);
+    layout::decode(codes, quaternions, &|codes, q, fence| {
+        run::<CodeColumn<[u8; N]>, Columns<4>>(Decode(rotation), codes, q, fence);
     });
-    layout::decode(&kernel, N, codes, quaternions);
 }

@@ -18,8 +18,6 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 pub(crate) use scalar::I32x1;
 pub(crate) use vec3::{Vec3, map_vec, map2, map3, map4};
 
-use stream::Fence;
-
 /// 1.5 * 2^23: adding it rounds to an integer, ties to even, in the low mantissa bits.
 const ROUNDER: f32 = 12_582_912.0;
 
@@ -34,6 +32,7 @@ pub(crate) const MAX_LANES: usize = 16;
 /// A number on the right of an operator, or as an argument, stands for a vector of that number.
 pub(crate) trait Simd:
     Copy
+    + 'static
     + From<f32>
     + Add<Output = Self>
     + Sub<Output = Self>
@@ -78,9 +77,10 @@ pub(crate) trait Simd:
     }
     fn load(block: &Self::Block<f32>) -> Self;
     fn store(self, block: &mut Self::Block<f32>);
-    /// Stores, past the caches if the fence is for that and the block is aligned.
+    /// Stores, past the caches if the block is aligned. Made visible by a
+    /// [`Fence`](stream::Fence).
     #[inline(always)]
-    fn stream<'a>(self, block: &'a mut Self::Block<f32>, _: &Fence<'a>) {
+    fn stream(self, block: &mut Self::Block<f32>) {
         self.store(block);
     }
     /// Integers computed from the elements of a block.

@@ -3,9 +3,6 @@
 //! An ordinary store first reads the line that it changes, and evicts another. So of what is written
 //! once and read much later, every byte crosses the memory bus twice. A streaming store avoids both.
 
-use core::cell::Cell;
-use core::marker::PhantomData;
-
 /// Smallest output in bytes that counts as larger than the caches.
 const LARGE: usize = 32 << 20;
 
@@ -19,17 +16,16 @@ pub(crate) fn is_large(bytes: usize) -> bool {
 /// Alignment in bytes that streaming stores need.
 pub(crate) const ALIGNMENT: usize = 64;
 
-/// Whether stores stream. Streaming stores become visible in any order until the fence is dropped; it
-/// borrows their destination until then. Do not leak it.
-pub(crate) struct Fence<'a> {
+/// Whether stores stream. Other threads may see streaming stores in any order until the fence is
+/// dropped. So whoever makes a fence keeps the destination borrowed until then, and drops the fence.
+pub(crate) struct Fence {
     streams: bool,
-    blocks: PhantomData<Cell<&'a mut ()>>,
 }
 
-impl Fence<'_> {
+impl Fence {
     #[inline(always)]
     pub(crate) fn new(streams: bool) -> Self {
-        Fence { streams, blocks: PhantomData }
+        Fence { streams }
     }
 
     #[inline(always)]
@@ -38,7 +34,7 @@ impl Fence<'_> {
     }
 }
 
-impl Drop for Fence<'_> {
+impl Drop for Fence {
     #[inline(always)]
     fn drop(&mut self) {
         #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
@@ -53,7 +49,7 @@ pub(crate) mod x86 {
     //! The streaming stores of AVX2 and AVX-512.
     //!
     //! `forbid(unsafe_code)` stops here, as they take pointers. A token proves that the processor has
-    //! the instructions; a [`Fence`] keeps the block borrowed until all others see what it holds.
+    //! the instructions.
 
     #![allow(unsafe_code)]
 
@@ -64,27 +60,25 @@ pub(crate) mod x86 {
 
     use fearless_simd::{Avx2, Avx512};
 
-    use super::Fence;
-
     /// A processor, by its token, that streams blocks of `N` floats.
     pub(crate) trait Streaming<const N: usize> {
-        /// Streams to an aligned block if the fence is for that, and stores to any other.
-        fn stream<'a>(self, from: [f32; N], to: &'a mut [f32; N], fence: &Fence<'a>);
+        /// Streams to an aligned block, and stores to any other.
+        fn stream(self, from: [f32; N], to: &mut [f32; N]);
     }
 
     macro_rules! streaming {
         ($token:ty, $n:literal: $load:ident, $stream:ident) => {
             impl Streaming<$n> for $token {
                 #[inline(always)]
-                fn stream<'a>(self, from: [f32; $n], to: &'a mut [f32; $n], fence: &Fence<'a>) {
+                fn stream(self, from: [f32; $n], to: &mut [f32; $n]) {
                     let address = to.as_mut_ptr();
-                    if !fence.streams() || address.addr() % size_of_val(to) != 0 {
+                    if address.addr() % size_of_val(to) != 0 {
                         *to = from;
                         return;
                     }
                     // SAFETY: the token proves that these instructions exist. Both arrays are as long
-                    // as the vector. The one written to is aligned, and borrowed alone until the fence
-                    // is dropped, which its only maker, `batch::decode`, does.
+                    // as the vector. The one written to is aligned, and borrowed alone, by
+                    // `layout::decode`, until after it has dropped the fence.
                     unsafe { arch::$stream(address, arch::$load(from.as_ptr())) }
                 }
             }

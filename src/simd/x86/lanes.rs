@@ -11,7 +11,6 @@ use fearless_simd::{
 use super::CpuLevel;
 use super::shuffle::{Shuffle, dense, spread};
 use crate::simd::operators::{operators, scalar_operators};
-use crate::simd::stream::Fence;
 use crate::simd::stream::x86::Streaming;
 use crate::simd::{Simd, SimdInt, SimdMask, look_up, look_up3, look_up4};
 
@@ -114,8 +113,8 @@ macro_rules! lanes {
                 *block = *self.0;
             }
             #[inline(always)]
-            fn stream<'a>(self, block: &'a mut [f32; $n], fence: &Fence<'a>) {
-                T::token().stream(*self.0, block, fence);
+            fn stream(self, block: &mut [f32; $n]) {
+                T::token().stream(*self.0, block);
             }
             #[inline(always)]
             fn load_bytes(block: &[[u8; 3]; $n]) -> $int<T> {

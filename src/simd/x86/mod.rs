@@ -56,21 +56,10 @@ unsafe impl CpuLevel for Avx512Level {
 #[inline(always)]
 pub(super) fn dispatch<L: BatchLoop>(batch: L) -> Option<L> {
     let level = Level::new();
-    if cfg!(not(disable_dispatch_avx512))
-        && L::USE_AVX512
-        && let Some(avx512) = level.as_avx512()
-    {
-        avx512.vectorize(
-            #[inline(always)]
-            || batch.run::<F32x16<Avx512Level>>(),
-        );
-    } else if cfg!(not(disable_dispatch_avx2))
-        && let Some(avx2) = level.as_avx2()
-    {
-        avx2.vectorize(
-            #[inline(always)]
-            || batch.run::<F32x8<Avx2Level>>(),
-        );
+    if cfg!(not(disable_dispatch_avx512)) && L::USE_AVX512 && level.as_avx512().is_some() {
+        batch.run::<F32x16<Avx512Level>>();
+    } else if cfg!(not(disable_dispatch_avx2)) && level.as_avx2().is_some() {
+        batch.run::<F32x8<Avx2Level>>();
     } else {
         return Some(batch);
     }
