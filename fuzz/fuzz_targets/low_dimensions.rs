@@ -13,9 +13,12 @@ const ROUNDING: f64 = 1.3e-7;
 
 /// Codes of one integer type.
 struct Soa {
-    encode: fn(&[f32], &[f32], &mut [Code]) -> Result<(), LengthMismatch>,
-    decode: fn(&[Code], &mut [f32], &mut [f32]) -> Result<(), LengthMismatch>,
+    encode: Encode,
+    decode: Decode,
 }
+
+type Encode = fn(&[f32], &[f32], &mut [Code]) -> Result<(), LengthMismatch>;
+type Decode = fn(&[Code], &mut [f32], &mut [f32]) -> Result<(), LengthMismatch>;
 
 struct Width {
     bits: u32,

@@ -243,7 +243,7 @@ impl AnyCodec {
         } else {
             // As many bytes as a code has, so that a dictionary's fit.
             let size = self.format.code_size();
-            let given: Vec<Code> = bytes.0.chunks(size).map(|c| integer_of(c)).chain([1]).collect();
+            let given: Vec<Code> = bytes.0.chunks(size).map(integer_of).chain([1]).collect();
             let mixed = |turn| turn as Code * 0x9E37_79B9_7F4A_7C15_F39C;
             let code = |i| given[i % given.len()] ^ mixed(i / given.len()) & mask;
             (0..count).map(code).collect()

@@ -3,9 +3,9 @@
 //! each counts; what is said are ratios.
 //!
 //! ```text
-//! cargo run --release                        # oct16 and its peers, and the codecs beside oct
-//! cargo run --release -- --codecs            # every codec beside a loop over its function for one vector
-//! cargo run --release -- --picture oct16.svg # draws the first table as well
+//! cargo run --release -p peers                        # oct16 and its peers, and the codecs beside oct
+//! cargo run --release -p peers -- --codecs            # every codec beside a loop over its function for one vector
+//! cargo run --release -p peers -- --picture oct16.svg # draws the first table as well
 //! ```
 
 mod codecs;
