@@ -3,8 +3,6 @@
 
 mod load;
 mod measure;
-#[path = "../../tests/common/published.rs"]
-mod published;
 mod readme;
 mod report;
 mod vectors;
@@ -17,6 +15,7 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use unitpack::Format;
+use unitpack_test::published;
 
 use measure::{Row, encoders_agree, measure};
 use report::{CSV_HEADER, Report, legend, thousands};

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use unitpack::Format;
 
 use crate::measure::{MOST_PASSES, Row};
-use crate::published::{self, Published, RULES, TABLE_1, TABLE_3, Verdict};
+use unitpack_test::published::{self, Published, RULES, TABLE_1, TABLE_3, Verdict};
 
 /// One set of vectors, measured.
 pub struct Report<'a> {

@@ -1,8 +1,6 @@
 //! Long proofs of what unitpack promises, one command each.
 
 mod codes;
-#[path = "../../../tests/common/mod.rs"]
-mod common;
 mod nearest;
 
 use std::error::Error;
