@@ -3,6 +3,7 @@
 use unitpack::{Soa, SoaMut};
 
 use crate::Vector;
+use crate::vectors::widen;
 
 /// A float that no decoder gives, except that of `Float32x3` for one input in 2^32.
 pub const UNWRITTEN: f32 = -7.252_952_6e22;
@@ -55,6 +56,11 @@ impl Arrays {
     /// The vectors, as many as the shortest array has.
     pub fn iter(&self) -> impl Iterator<Item = Vector> + Clone {
         self.x.iter().zip(&self.y).zip(&self.z).map(|((&x, &y), &z)| [x, y, z])
+    }
+
+    /// The vectors in `f64`.
+    pub fn wide(&self) -> impl Iterator<Item = [f64; 3]> + Clone {
+        self.iter().map(widen)
     }
 
     /// The bits of each vector.

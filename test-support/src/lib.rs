@@ -8,6 +8,7 @@
 //!   width of code.
 //! - [`codes`]: codes as integers, and the slices of [`Format`](unitpack::Format).
 //! - [`tables`]: decode tables, likewise.
+//! - [`readme`]: the README's table of codecs.
 //! - [`random`], [`vectors`], [`Arrays`], [`frames`], [`published`] and [`tasks`]: what their names say.
 //!
 //! Whatever runs a codec is generic or `#[inline]`. So this crate itself contains no codec, and a program
@@ -21,6 +22,7 @@ pub mod frames;
 pub mod oracle;
 pub mod published;
 pub mod random;
+pub mod readme;
 pub mod tables;
 pub mod tasks;
 mod typed;

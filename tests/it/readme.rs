@@ -1,11 +1,8 @@
 //! The README's table of codecs says what this build does.
 
-#[path = "../../examples/survey/readme.rs"]
-#[allow(dead_code)] // The example writes what is only read here.
-mod table;
-
 use unitpack::Format;
 use unitpack_test::Effort;
+use unitpack_test::readme as table;
 
 use unitpack_test::codes::{decode, encode_with};
 use unitpack_test::random::Rng;

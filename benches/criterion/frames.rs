@@ -2,24 +2,17 @@
 //! of arrays and of arrays of structures.
 //!
 //! ```text
-//! cargo bench --bench frames -- octangle32
+//! cargo bench -p unitpack-bench --bench frames -- octangle32
 //! ```
-
-use std::time::Duration;
 
 use bytemuck::Zeroable;
 use criterion::{Criterion, Throughput};
 use unitpack::frame::{FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, QTangent64};
 use unitpack::{Soa, SoaMut};
-
-const LEN: usize = 16 << 10;
+use unitpack_bench::{LEN, criterion, random};
 
 fn main() {
-    let mut criterion = Criterion::default()
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(1))
-        .configure_from_args();
+    let mut criterion = criterion();
     bench::<OctAngle32>(&mut criterion);
     bench::<OctAngle64>(&mut criterion);
     bench::<QTangent64>(&mut criterion);
@@ -27,12 +20,8 @@ fn main() {
 }
 
 fn bench<C: FrameCodec>(criterion: &mut Criterion) {
-    let mut state = 1u64;
-    let mut number = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (state >> 40) as f32 / 8_388_608.0 - 1.0
-    };
-    let columns = [(); 7].map(|()| (0..LEN).map(|_| number()).collect::<Vec<f32>>());
+    let numbers = random(7 * LEN, |rng| rng.signed());
+    let columns = [0, 1, 2, 3, 4, 5, 6].map(|i| numbers[i * LEN..][..LEN].to_vec());
     let [nx, ny, nz, tx, ty, tz, handedness] = &columns;
     let frames = FrameSoa {
         normal: Soa { x: nx, y: ny, z: nz },

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use unitpack::Format;
+use unitpack_test::{Arrays, Effort};
 
 use crate::canvas::{
     BODY, BOLD, Canvas, GAP, GREY, INK, LINE, Scale, TITLE, WHITE, sheet, squarish, text_width,
@@ -10,7 +11,7 @@ use crate::canvas::{
 use crate::error::{POINT_SCALE, neighbourhood, views};
 use crate::geometry::View;
 use crate::raster::{Raster, blur};
-use crate::trip::{Encoder, Vectors, decode};
+use crate::round_trip::{Encoder, decode};
 
 const DENSITY: Scale = Scale {
     title: "Directions in an area over those of an even distribution of all codes",
@@ -36,7 +37,7 @@ pub struct Points {
     format: Format,
     codes: usize,
     /// Each once.
-    directions: Vectors,
+    directions: Arrays,
 }
 
 impl Points {
@@ -47,20 +48,20 @@ impl Points {
             .collect();
         // Of the codes of one direction, one is canonical.
         let all = decode(format, &codes);
-        let canonical = Encoder { format, precise: true }.encode(&all);
+        let canonical = Encoder { format, effort: Effort::Precise }.encode(&all);
         let size = format.code_size();
-        let mut directions = Vectors::default();
+        let mut directions = Arrays::default();
         for ((v, code), canonical) in all.iter().zip(codes.chunks(size)).zip(canonical.chunks(size))
         {
             if code == canonical {
                 directions.push(v);
             }
         }
-        Points { format, codes: all.len(), directions }
+        Points { format, codes: all.count(), directions }
     }
 
     fn count(&self) -> String {
-        format!("{} directions of {} codes", self.directions.len(), self.codes)
+        format!("{} directions of {} codes", self.directions.count(), self.codes)
     }
 
     /// The near hemisphere as dots, and close-ups.
@@ -71,7 +72,7 @@ impl Points {
         let radius = wide as f64 / 2.0 - 4.0;
         let centre = wide as f64 / 2.0;
         dots.ring(centre, LINE as f64 + centre, radius + 2.5, 1.0, GREY);
-        for at in self.directions.iter().filter(|v| v[2] >= 0.0) {
+        for at in self.directions.wide().filter(|v| v[2] >= 0.0) {
             if let Some([right, up]) = View::FROM_PLUS_Z.equal_area_inverse(at) {
                 let (x, y) = (centre + right * radius, LINE as f64 + centre - up * radius);
                 dots.disc(x, y, wide as f64 / 800.0, INK);
@@ -94,7 +95,7 @@ impl Points {
 
     fn close_up(&self, canvas: &mut Canvas, x: usize, y: usize, size: usize, view: View) {
         let hemisphere = self.format.is_hemisphere();
-        let encoder = Encoder { format: self.format, precise: true };
+        let encoder = Encoder { format: self.format, effort: Effort::Precise };
         let direction = |at: [f64; 2]| {
             view.equal_area(at.map(|c| c * CLOSE)).filter(|v| !hemisphere || v[2] >= 0.0)
         };
@@ -105,7 +106,7 @@ impl Points {
         // All rims first: where dots merge, they stay bright.
         let radius = size as f64 / 160.0;
         for (radius, colour) in [(radius + 1.0, INK), (radius, WHITE)] {
-            for at in self.directions.iter().filter_map(|v| view.equal_area_inverse(v)) {
+            for at in self.directions.wide().filter_map(|v| view.equal_area_inverse(v)) {
                 let [right, up] = at.map(|c| c / CLOSE);
                 if right.abs().max(up.abs()) < 0.99 {
                     let (x, y) = (x as f64 + half * (1.0 + right), y as f64 + half * (1.0 - up));
@@ -132,7 +133,7 @@ impl Points {
     fn density(&self, view: View, size: usize) -> Density {
         let mut density = Density::new(size);
         let hemisphere = self.format.is_hemisphere();
-        for v in self.directions.iter() {
+        for v in self.directions.wide() {
             density.add(view.equal_area_inverse(v));
             // Go on evenly beyond the rim.
             if hemisphere && v[2] > 0.0 {

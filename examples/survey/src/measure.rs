@@ -3,9 +3,12 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use unitpack::{Format, Soa, SoaMut};
+use unitpack::{Format, Soa};
+use unitpack_test::codes::{decode_slice, encode_slice};
+use unitpack_test::vectors::angle;
+use unitpack_test::{Arrays, Effort};
 
-use crate::vectors::{Vectors, cross};
+use crate::vectors::spread;
 
 /// An encoder that would take longer than this over all vectors gets fewer of them.
 const LONGEST_PASS: Duration = Duration::from_secs(1);
@@ -55,26 +58,26 @@ impl Row {
 }
 
 /// Measures `format` on `vectors`, which have z >= 0 if `hemisphere` says so.
-pub fn measure(format: Format, precise: bool, hemisphere: bool, vectors: &Vectors) -> Row {
-    let mut codes = vec![0; vectors.len() * format.code_size()];
-    let probe = vectors.spread(PROBE.min(vectors.len()));
-    let probe_codes = &mut codes[..probe.len() * format.code_size()];
+pub fn measure(format: Format, precise: bool, hemisphere: bool, vectors: &Arrays) -> Row {
+    let mut codes = vec![0; vectors.count() * format.code_size()];
+    let probe = spread(vectors, PROBE.min(vectors.count()));
+    let probe_codes = &mut codes[..probe.count() * format.code_size()];
     let pace = (0..3)
-        .map(|_| time(1, || encode(format, precise, probe.soa(), probe_codes)))
+        .map(|_| time(1, || encode(format, precise, probe.read(), probe_codes)))
         .fold(f64::INFINITY, f64::min)
-        / probe.len() as f64;
+        / probe.count() as f64;
     let affordable = (LONGEST_PASS.as_secs_f64() / pace) as usize;
     let fewer;
-    let vectors = if affordable < vectors.len() {
-        fewer = vectors.spread(affordable.max(probe.len()));
+    let vectors = if affordable < vectors.count() {
+        fewer = spread(vectors, affordable.max(probe.count()));
         &fewer
     } else {
         vectors
     };
 
-    let count = vectors.len();
+    let count = vectors.count();
     let codes = &mut codes[..count * format.code_size()];
-    let [mut x, mut y, mut z] = [vec![0.0; count], vec![0.0; count], vec![0.0; count]];
+    let mut decoded = Arrays::filled([count; 3], 0.0);
     // A clock cannot time a handful of vectors.
     let calls = (4096 / count).max(1);
     let (mut encoding, mut decoding) = (f64::INFINITY, f64::INFINITY);
@@ -83,14 +86,13 @@ pub fn measure(format: Format, precise: bool, hemisphere: bool, vectors: &Vector
         if pass >= 2 && start.elapsed() >= ENOUGH {
             break;
         }
-        encoding = encoding.min(time(calls, || encode(format, precise, vectors.soa(), codes)));
+        encoding = encoding.min(time(calls, || encode(format, precise, vectors.read(), codes)));
         decoding = decoding.min(time(calls, || {
-            let v = SoaMut { x: &mut x, y: &mut y, z: &mut z };
-            format.decode(black_box(codes), v).expect("the lengths fit");
+            decode_slice(format, black_box(codes), decoded.write()).expect("the lengths fit");
         }));
     }
 
-    let (mean, rms, max) = errors(vectors.soa(), Soa { x: &x, y: &y, z: &z });
+    let (mean, rms, max) = errors(vectors, &decoded);
     let ns = 1e9 / count as f64;
     Row {
         format,
@@ -118,9 +120,8 @@ pub fn encoders_agree(format: Format, Soa { x, y, z }: Soa<'_>) -> bool {
 }
 
 fn encode(format: Format, precise: bool, v: Soa<'_>, codes: &mut [u8]) {
-    let codes = black_box(codes);
-    if precise { format.encode_precise(v, codes) } else { format.encode(v, codes) }
-        .expect("the lengths fit");
+    let effort = if precise { Effort::Precise } else { Effort::Fast };
+    encode_slice(format, effort, v, black_box(codes)).expect("the lengths fit");
 }
 
 /// Seconds that one call takes, averaged over `calls`.
@@ -133,22 +134,14 @@ fn time(calls: usize, mut call: impl FnMut()) -> f64 {
 }
 
 /// Mean, root mean square and greatest angle between the vectors, in degrees.
-fn errors(a: Soa<'_>, b: Soa<'_>) -> (f64, f64, f64) {
+fn errors(a: &Arrays, b: &Arrays) -> (f64, f64, f64) {
     let (mut sum, mut squares, mut max) = (0.0, 0.0, 0.0);
-    for i in 0..a.x.len() {
-        let e = angle([a.x[i], a.y[i], a.z[i]], [b.x[i], b.y[i], b.z[i]]).to_degrees();
+    for (a, b) in a.wide().zip(b.wide()) {
+        let e = angle(a, b).to_degrees();
         sum += e;
         squares += e * e;
         max = e.max(max);
     }
-    let count = a.x.len() as f64;
+    let count = a.count() as f64;
     (sum / count, (squares / count).sqrt(), max)
-}
-
-/// By arc tangent: near 1, an arc cosine loses half of the digits.
-fn angle(a: [f32; 3], b: [f32; 3]) -> f64 {
-    let (a, b) = (a.map(f64::from), b.map(f64::from));
-    let dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let [x, y, z] = cross(a, b);
-    (x * x + y * y + z * z).sqrt().atan2(dot)
 }

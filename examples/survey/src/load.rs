@@ -9,14 +9,14 @@ use base64::{Engine, engine::general_purpose::STANDARD as BASE64};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::{Accessor, Buffer, Document, Glb, Semantic, buffer::Source, json};
 
-use crate::vectors::Vectors;
+use unitpack_test::Arrays;
 
 type Normals = Result<Vec<[f32; 3]>, String>;
 type Reader = fn(&Path, &[u8]) -> Normals;
 
 /// The normals of a file, and how many it has of no direction: zero, NaN or infinite. Those are
 /// left out.
-pub fn load(path: &Path) -> Result<(Vectors, usize), String> {
+pub fn load(path: &Path) -> Result<(Arrays, usize), String> {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let read: Reader = match extension.as_str() {
         "obj" => obj,
@@ -35,8 +35,8 @@ pub fn load(path: &Path) -> Result<(Vectors, usize), String> {
     let normals = read(path, &bytes)?;
     let has_direction =
         |v: &&[f32; 3]| v.iter().all(|c| c.is_finite()) && v.iter().any(|&c| c != 0.0);
-    let vectors: Vectors = normals.iter().filter(has_direction).copied().collect();
-    match (normals.len(), vectors.len()) {
+    let vectors: Arrays = normals.iter().filter(has_direction).copied().collect();
+    match (normals.len(), vectors.count()) {
         (0, _) => Err("the file has no normals".into()),
         (all, 0) => {
             Err(format!("none of the {all} normals has a direction: zero, NaN or infinite"))

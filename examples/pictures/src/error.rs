@@ -7,7 +7,7 @@ use crate::canvas::{
 };
 use crate::geometry::{View, in_disc};
 use crate::raster::Raster;
-use crate::trip::Encoder;
+use crate::round_trip::Encoder;
 
 /// Of the overview.
 const SCALE: Scale = Scale {

@@ -1,30 +1,22 @@
 //! All cores: slices are encoded and decoded in chunks with rayon, to the same bits as whole, and the times compared.
 //!
 //! ```text
-//! cargo run --release --example parallel
+//! cargo run --release -p parallel
 //! ```
 
 use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use unitpack::{Codec, LatLong16D, Oct16, Soa, SoaMut};
+use unitpack_test::Arrays;
+use unitpack_test::vectors::golden_spiral;
 
 const LEN: usize = 4 << 20;
 /// Vectors in a chunk: enough that sharing them out costs nothing, and 256 KB, so that they stay in a core's cache.
 const CHUNK: usize = 16 << 10;
 
 fn main() {
-    let vectors: Vec<[f32; 3]> = (0..LEN)
-        .map(|i| {
-            // Spread evenly, by the golden angle.
-            let z = 1.0 - (2 * i + 1) as f64 / LEN as f64;
-            let (sin, cos) = (2.399_963_229_728_653 * i as f64).sin_cos();
-            let r = (1.0 - z * z).sqrt();
-            [r * cos, r * sin, z].map(|c| c as f32)
-        })
-        .collect();
-    let component = |i: usize| vectors.iter().map(|v| v[i]).collect();
-    let v = Vectors { x: component(0), y: component(1), z: component(2) };
+    let v: Arrays = golden_spiral(LEN).collect();
     println!(
         "{} threads, {LEN} vectors, ms: whole, in chunks, times as fast",
         rayon::current_num_threads()
@@ -33,23 +25,10 @@ fn main() {
     compare::<LatLong16D>(&v);
 }
 
-#[derive(Clone)]
-struct Vectors {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    z: Vec<f32>,
-}
-
-impl Vectors {
-    fn bits(&self) -> impl Iterator<Item = u32> {
-        self.x.iter().chain(&self.y).chain(&self.z).map(|c| c.to_bits())
-    }
-}
-
-fn compare<C: Codec<Code: Send + Sync>>(v: &Vectors) {
+fn compare<C: Codec<Code: Send + Sync>>(v: &Arrays) {
     let mut whole = vec![C::encode([0.0, 0.0, 1.0]); LEN];
     let mut chunked = whole.clone();
-    let encode = || C::encode_soa(Soa { x: &v.x, y: &v.y, z: &v.z }, &mut whole).unwrap();
+    let encode = || C::encode_soa(v.read(), &mut whole).unwrap();
     let encode_chunks = || {
         let v = v.x.par_chunks(CHUNK).zip(v.y.par_chunks(CHUNK)).zip(v.z.par_chunks(CHUNK));
         v.zip(chunked.par_chunks_mut(CHUNK))
@@ -59,10 +38,7 @@ fn compare<C: Codec<Code: Send + Sync>>(v: &Vectors) {
     assert!(whole == chunked, "{}: chunks encode otherwise", C::FORMAT);
 
     let (mut a, mut b) = (v.clone(), v.clone());
-    let decode = || {
-        let v = SoaMut { x: &mut a.x, y: &mut a.y, z: &mut a.z };
-        C::decode_soa(&whole, v).unwrap();
-    };
+    let decode = || C::decode_soa(&whole, a.write()).unwrap();
     let decode_chunks = || {
         let v =
             b.x.par_chunks_mut(CHUNK).zip(b.y.par_chunks_mut(CHUNK)).zip(b.z.par_chunks_mut(CHUNK));

@@ -1,8 +1,9 @@
 //! Values sampled over a square.
 
+use unitpack_test::Arrays;
+
 use crate::canvas::{Canvas, Rgb};
 use crate::geometry::V3;
-use crate::trip::Vectors;
 
 /// The sum of a pixel's samples, and how many there are.
 type Pixel<const N: usize> = ([f64; N], usize);
@@ -24,18 +25,18 @@ impl<const N: usize> Raster<N> {
         size: usize,
         side: usize,
         direction: impl Fn([f64; 2]) -> Option<V3>,
-        value: impl Fn(&Vectors) -> Vec<[f64; N]>,
+        value: impl Fn(&Arrays) -> Vec<[f64; N]>,
     ) -> Raster<N> {
         let mut pixels = vec![([0.0; N], 0); size * size];
         let mut greatest = [f64::NEG_INFINITY; N];
         let step = 2.0 / (size * side) as f64;
         for (y, row) in pixels.chunks_mut(size).enumerate() {
-            let (mut vectors, mut columns) = (Vectors::default(), Vec::new());
+            let (mut vectors, mut columns) = (Arrays::default(), Vec::new());
             for i in 0..side {
                 let up = 1.0 - ((y * side + i) as f64 + 0.5) * step;
                 for j in 0..size * side {
                     if let Some(v) = direction([(j as f64 + 0.5) * step - 1.0, up]) {
-                        vectors.push(v);
+                        vectors.push(v.map(|c| c as f32));
                         columns.push(j / side);
                     }
                 }

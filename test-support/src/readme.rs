@@ -1,31 +1,34 @@
 //! The README's table of codecs: a row per family, with its figures at the usual sizes.
 
-use std::any::type_name;
+use unitpack::Format;
 
-use unitpack::{Codec, Format, Visitor};
-
-/// What stands around the table.
-const START: &str =
-    "<!-- Written by `cargo run --release --example survey -- --readme README.md` -->";
+/// What is around the table.
+const START: &str = "<!-- Written by `cargo run --release -p survey -- --readme README.md` -->";
 const END: &str = "<!-- The end of what it writes -->";
 
 /// A column has each family's largest member of so many bits or fewer that the column before it is
 /// too small for.
 pub const COLUMNS: [u32; 4] = [16, 24, 32, 48];
 
-/// Where in `text` the table stands.
+/// Where in `text` the table is.
 fn place(text: &str) -> Result<std::ops::Range<usize>, String> {
     let start = text.find(START).ok_or_else(|| format!("there is no line {START}"))? + START.len();
     let end = text[start..].find(END).ok_or_else(|| format!("after that there is no {END}"))?;
     Ok(start..start + end)
 }
 
-/// The table that stands in `text`.
+/// The table in `text`.
+///
+/// # Errors
+/// If its marks are missing.
 pub fn extract(text: &str) -> Result<&str, String> {
     Ok(text[place(text)?].trim())
 }
 
 /// `text` with another table.
+///
+/// # Errors
+/// If the marks of the table are missing.
 pub fn replace(text: &str, table: &str) -> Result<String, String> {
     let place = place(text)?;
     Ok(format!("{}\n\n{}\n\n{}", &text[..place.start], table.trim(), &text[place.end..]))
@@ -60,7 +63,7 @@ pub fn table(mean: impl Fn(Format, bool) -> f64) -> String {
 }
 
 fn head(family: &[Format]) -> String {
-    let names: Vec<_> = family.iter().map(|f| format!("`{}`", f.visit(TypeName))).collect();
+    let names: Vec<_> = family.iter().map(|f| format!("`{f:?}`")).collect();
     let names = match &names[..] {
         [first, _, .., last] => format!("{first} to {last}"),
         names => names.join(", "),
@@ -79,7 +82,7 @@ fn cells(family: &[Format]) -> [Option<Format>; COLUMNS.len()] {
     })
 }
 
-/// What stands before the figures of a format in the column of so many bits.
+/// The text before the figures of a format, in the column of so many bits.
 pub fn size(format: Format, column: u32) -> String {
     if format.bits() == column { String::new() } else { format!("{} bits: ", format.bits()) }
 }
@@ -133,14 +136,4 @@ fn three_digits(x: f64) -> String {
     }
     let decimals = (2 - x.abs().log10().floor() as i32).max(0) as usize;
     format!("{x:.decimals$}")
-}
-
-/// "Oct16".
-struct TypeName;
-
-impl Visitor for TypeName {
-    type Output = &'static str;
-    fn visit<C: Codec>(self) -> &'static str {
-        type_name::<C>().rsplit(':').next().unwrap_or_default()
-    }
 }

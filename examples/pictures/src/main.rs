@@ -1,5 +1,4 @@
-//! Draws what the 16-bit codecs do to the sphere, as PNG files: `cargo run --release --example
-//! pictures -- --help`
+//! Draws what the 16-bit codecs do to the sphere, as PNG files: `cargo run --release -p pictures -- --help`
 
 mod canvas;
 mod error;
@@ -7,8 +6,8 @@ mod geometry;
 mod mirror;
 mod points;
 mod raster;
+mod round_trip;
 mod rounding;
-mod trip;
 
 use std::fs;
 use std::io::{self, Write};

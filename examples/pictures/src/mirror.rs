@@ -1,11 +1,13 @@
 //! A mirror sphere whose normals went through a format.
 
 use unitpack::Format;
+use unitpack_test::Arrays;
+use unitpack_test::vectors::{dot, normalize};
 
 use crate::canvas::{BODY, BOLD, Canvas, GAP, LINE, RED, Rgb, TITLE, sheet, squarish, text_width};
-use crate::geometry::{V3, dot, in_disc, normalize};
+use crate::geometry::{V3, in_disc};
 use crate::raster::Raster;
-use crate::trip::{Encoder, Vectors};
+use crate::round_trip::Encoder;
 
 /// What differences are multiplied by.
 const AMPLIFIED: f64 = 4.0;
@@ -24,15 +26,15 @@ pub struct Sphere {
 
 impl Sphere {
     pub fn exact(size: usize) -> Sphere {
-        Sphere::render(size, |normals| normals.iter().map(reflected).collect())
+        Sphere::render(size, |normals| normals.wide().map(reflected).collect())
     }
 
     fn through(encoder: Encoder, size: usize) -> Sphere {
-        Sphere::render(size, |n| encoder.round_trip(n).iter().map(reflected).collect())
+        Sphere::render(size, |n| encoder.round_trip(n).wide().map(reflected).collect())
     }
 
     /// Seen along the parallel rays of an eye at +Z.
-    fn render(size: usize, light: impl Fn(&Vectors) -> Vec<[f64; 3]>) -> Sphere {
+    fn render(size: usize, light: impl Fn(&Arrays) -> Vec<[f64; 3]>) -> Sphere {
         let normal = |[right, up]: [f64; 2]| {
             let square = right * right + up * up;
             in_disc([right, up]).then(|| [right, up, (1.0 - square).max(0.0).sqrt()])

@@ -5,9 +5,9 @@
 //! Names are `place/operation/format/loop`, to be filtered with a regular expression:
 //!
 //! ```text
-//! cargo bench --bench codecs -- oct16
-//! cargo bench --bench codecs -- cache/decode
-//! cargo bench --bench codecs -- 'memory/.*/batch'
+//! cargo bench -p unitpack-bench --bench codecs -- oct16
+//! cargo bench -p unitpack-bench --bench codecs -- cache/decode
+//! cargo bench -p unitpack-bench --bench codecs -- 'memory/.*/batch'
 //! ```
 //!
 //! A precise encoder too slow for so many vectors takes fewer, and its name says how many: `batch
@@ -18,8 +18,11 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
+use criterion::{BenchmarkGroup, BenchmarkId, Throughput};
 use unitpack::{Codec, Format, Soa, SoaMut, Visitor};
+use unitpack_bench::{criterion, random};
+use unitpack_test::Arrays;
+use unitpack_test::random::Rng;
 
 const PLACES: [(&str, usize); 2] = [("cache", 16 << 10), ("memory", 16 << 20)];
 
@@ -27,11 +30,7 @@ const PLACES: [(&str, usize); 2] = [("cache", 16 << 10), ("memory", 16 << 20)];
 const PASS: Duration = Duration::from_secs(1);
 
 fn main() {
-    let mut criterion = Criterion::default()
-        .sample_size(10)
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(1))
-        .configure_from_args();
+    let mut criterion = criterion();
     let data = RefCell::new(Data::default());
     for (place, len) in PLACES {
         for operation in [Operation::Encode, Operation::Precise, Operation::Decode] {
@@ -153,9 +152,10 @@ fn affordable<C: Codec>(data: &RefCell<Data>, run: Loop<C>) -> usize {
 /// The buffers that all benchmarks share, as long as the longest so far.
 #[derive(Default)]
 struct Data {
-    /// x, y, z, and |z| for the formats of a hemisphere.
-    input: [Vec<f32>; 4],
-    output: [Vec<f32>; 3],
+    input: Arrays,
+    /// |z|, for the formats of a hemisphere.
+    upper: Vec<f32>,
+    output: Arrays,
     /// Room for codes of up to 12 bytes.
     codes: Vec<[u32; 3]>,
 }
@@ -169,36 +169,19 @@ struct Buffers<'a, C: Codec> {
 impl Data {
     fn buffers<C: Codec>(&mut self, len: usize) -> Buffers<'_, C> {
         if self.codes.len() < len {
-            self.input = unit_vectors(len);
-            self.output.iter_mut().for_each(|component| component.resize(len, 0.0));
+            self.input = Arrays::from(&random(len, Rng::direction)[..]);
+            self.upper = self.input.z.iter().map(|z| z.abs()).collect();
+            self.output = Arrays::filled([len; 3], 0.0);
             self.codes.resize(len, [0; 3]);
         }
-        let [x, y, z, upper_z] = &self.input;
-        let z = if C::FORMAT.is_hemisphere() { upper_z } else { z };
+        let Soa { x, y, z } = self.input.read();
+        let z = if C::FORMAT.is_hemisphere() { &self.upper } else { z };
         let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut self.codes);
         Buffers {
             input: Soa { x: &x[..len], y: &y[..len], z: &z[..len] },
-            output: self.output.each_mut().map(|component| &mut component[..len]),
+            output: [&mut self.output.x, &mut self.output.y, &mut self.output.z]
+                .map(|component| &mut component[..len]),
             codes: bytemuck::cast_slice_mut(&mut bytes[..len * size_of::<C::Code>()]),
         }
     }
-}
-
-/// Uniformly random unit vectors: x, y, z and |z|.
-fn unit_vectors(len: usize) -> [Vec<f32>; 4] {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
-    let mut uniform = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (state >> 40) as f32 / (1 << 24) as f32
-    };
-    let mut vectors = [const { Vec::new() }; 4];
-    for _ in 0..len {
-        let z = 2.0 * uniform() - 1.0;
-        let (sin, cos) = (std::f32::consts::TAU * uniform()).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        for (component, value) in vectors.iter_mut().zip([r * cos, r * sin, z, z.abs()]) {
-            component.push(value);
-        }
-    }
-    vectors
 }

@@ -1,25 +1,8 @@
 //! Where on a picture a direction lies.
 
+use unitpack_test::vectors::{cross, dot, normalize};
+
 pub type V3 = [f64; 3];
-
-pub fn dot(a: V3, b: V3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub fn cross(a: V3, b: V3) -> V3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub fn normalize(v: V3) -> V3 {
-    let length = dot(v, v).sqrt();
-    v.map(|c| c / length)
-}
-
-/// By arc tangent: near 1, an arc cosine loses half of the digits.
-pub fn degrees(a: V3, b: V3) -> f64 {
-    let c = cross(a, b);
-    dot(c, c).sqrt().atan2(dot(a, b)).to_degrees()
-}
 
 /// The sphere as seen from one side.
 #[derive(Clone, Copy)]

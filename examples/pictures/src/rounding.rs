@@ -1,13 +1,14 @@
 //! Which way the parameters of oct16 have to be rounded for the nearest code.
 
 use unitpack::Format;
+use unitpack_test::vectors::{chord_squared, normalize};
 
 use crate::canvas::{
     BODY, BOLD, Canvas, GAP, INK, LINE, RED, Rgb, Scale, WHITE, sheet, text_width,
 };
-use crate::geometry::{V3, dot, normalize};
+use crate::geometry::V3;
 use crate::raster::Raster;
-use crate::trip::{Encoder, decode};
+use crate::round_trip::{Encoder, decode};
 
 /// The roundings of u and v, in the order of `nearest`. Colours of Okabe and Ito, "Color Universal
 /// Design" (2008).
@@ -67,12 +68,9 @@ fn nearest(corner: [i32; 2], cells: usize, side: usize) -> Vec<usize> {
                 codes.extend([u.floor() + up(0), v.floor() + up(1)].map(|c| c as i8 as u8));
             }
         }
-        let decoded: Vec<V3> = decode(Format::Oct16, &codes).iter().collect();
+        let decoded: Vec<V3> = decode(Format::Oct16, &codes).wide().collect();
         for (&v, four) in directions.iter().zip(decoded.chunks(ROUNDINGS.len())) {
-            let distance = |i: &usize| {
-                let d = [0, 1, 2].map(|c| four[*i][c] - v[c]);
-                dot(d, d)
-            };
+            let distance = |i: &usize| chord_squared(four[*i], v);
             best.extend((0..four.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))));
         }
     }

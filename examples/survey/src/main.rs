@@ -1,9 +1,8 @@
 //! Measures error and speed of every codec on real vectors, and compares with what was published:
-//! `cargo run --release --example survey -- --help`
+//! `cargo run --release -p survey -- --help`
 
 mod load;
 mod measure;
-mod readme;
 mod report;
 mod vectors;
 
@@ -15,11 +14,11 @@ use std::time::Instant;
 
 use indicatif::{ProgressBar, ProgressStyle};
 use unitpack::Format;
-use unitpack_test::published;
+use unitpack_test::{Arrays, published, readme};
 
 use measure::{Row, encoders_agree, measure};
 use report::{CSV_HEADER, Report, legend, thousands};
-use vectors::{TORUS_KNOT, Vectors};
+use vectors::TORUS_KNOT;
 
 const HELP: &str = "\
 Measures error and speed of every codec of unitpack, and compares the errors with those
@@ -136,7 +135,7 @@ struct Input {
     name: String,
     /// The name in a sentence.
     title: String,
-    vectors: Vectors,
+    vectors: Arrays,
     /// How many normals had no direction.
     left_out: usize,
     /// Whether these are vectors like the survey's, so that its figures can be expected.
@@ -170,7 +169,7 @@ fn inputs(options: &Options) -> Result<Vec<Input>, String> {
         let (vectors, left_out) =
             load::load(path).map_err(|error| format!("{}: {error}", path.display()))?;
         let name = path.display().to_string();
-        let title = format!("{name}: {} normals", thousands(vectors.len()));
+        let title = format!("{name}: {} normals", thousands(vectors.count()));
         Ok(Input { name, title, vectors, left_out, uniform: false })
     };
     options.files.iter().map(load).collect()
@@ -204,7 +203,7 @@ fn run(options: &Options, inputs: &[Input]) -> io::Result<()> {
         let report = Report {
             input: &input.name,
             title: &input.title,
-            vectors: input.vectors.len(),
+            vectors: input.vectors.count(),
             left_out: input.left_out,
             rows: measure_all(&options.formats, input, &bar),
         };
@@ -244,7 +243,7 @@ fn run(options: &Options, inputs: &[Input]) -> io::Result<()> {
 
 fn measure_all(formats: &[Format], input: &Input, bar: &ProgressBar) -> Vec<Row> {
     let sphere = &input.vectors;
-    let hemisphere = &sphere.hemisphere();
+    let hemisphere = &vectors::hemisphere(sphere);
     // A mesh may be too small to tell two encoders apart.
     let sample = vectors::uniform(1 << 16, 0);
     let mut rows = Vec::new();
@@ -254,7 +253,7 @@ fn measure_all(formats: &[Format], input: &Input, bar: &ProgressBar) -> Vec<Row>
         for precise in [false, true] {
             let published =
                 |domain| input.uniform && published::find(format, precise, domain).is_some();
-            if !precise || published(own) || !encoders_agree(format, sample.soa()) {
+            if !precise || published(own) || !encoders_agree(format, sample.read()) {
                 let vectors = if own { hemisphere } else { sphere };
                 rows.push(measure(format, precise, own, vectors));
             }
