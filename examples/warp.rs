@@ -12,7 +12,6 @@
 //! least, and compares them with the crate's.
 
 use unitpack::{Codec, WarpedOct32};
-use unitpack_test::vectors::dot;
 
 /// What the crate has.
 const CRATE: [f64; 2] = [0.459265, -0.710567];
@@ -26,6 +25,10 @@ fn warp([k, q]: [f64; 2], t: f64) -> f64 {
 
 fn gradient([k, q]: [f64; 2], t: f64) -> f64 {
     1.0 + k + 2.0 * (q - k) * t - 3.0 * q * t * t
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// The circumradius, in radians, of a triangle of the lattice around t, times M.

@@ -1,5 +1,5 @@
 //! Vectors per second of every codec: `encode`, `precise` and `decode`, with 16 Ki vectors in cache
-//! and with 16 Mi from memory. Beside each `batch` stands `scalar`, a plain loop over the codec's
+//! and with 16 Mi from memory. Beside each `batch` is `scalar`, a plain loop over the codec's
 //! function for one vector.
 //!
 //! Names are `place/operation/format/loop`, to be filtered with a regular expression:

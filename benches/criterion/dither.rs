@@ -1,5 +1,5 @@
-//! Vectors per second with dither, with stochastic rounding, of operations on codes, and of spherical Fibonacci of a
-//! million points: structures of arrays, 16 Ki in cache.
+//! Vectors per second with dither, with stochastic rounding, of operations on codes, and of
+//! spherical Fibonacci of a million points: structures of arrays, 16 Ki in cache.
 //!
 //! ```text
 //! cargo bench -p unitpack-bench --bench dither

@@ -1,5 +1,5 @@
-//! Tangent frames per second: `encode`, `precise` and `decode`, with 16 Ki frames in cache, of structures
-//! of arrays and of arrays of structures.
+//! Tangent frames per second: `encode`, `precise` and `decode`, with 16 Ki frames in cache, of
+//! structures of arrays and of arrays of structures.
 //!
 //! ```text
 //! cargo bench -p unitpack-bench --bench frames -- octangle32

@@ -44,14 +44,14 @@ impl Bytes<'_> {
         &from[usize::from(self.byte()) % from.len()]
     }
 
-    /// All that is left, in pieces of so many bytes; a part of one is filled with zeros.
+    /// All that is left, in pieces of `N` bytes; a part of one is filled with zeros.
     pub fn rest<const N: usize>(&mut self) -> Vec<[u8; N]> {
         let count = self.0.len().div_ceil(N);
         (0..count).map(|_| self.take()).collect()
     }
 
-    /// So many items from what is left: each from `N` bytes and the number of the turn, as the bytes
-    /// are taken over again where there are too few.
+    /// So many items from what is left: each from `N` bytes and the number of the turn, as the
+    /// bytes are taken over again where there are too few.
     fn items<T, const N: usize>(
         &mut self,
         count: usize,
@@ -134,14 +134,14 @@ impl Subject {
         &ALL[format as usize]
     }
 
-    /// The functions of slices that only a codec's type has: those of a format of this family and width
-    /// of code.
+    /// The functions of slices that only a codec's type has: those of a format of this family and
+    /// width of code.
     pub fn typed(&self) -> &'static Typed {
         self.typed
     }
 
-    /// The next byte chooses a transcoder: from or to [`typed`](Subject::typed), or between any two types
-    /// of code.
+    /// The next byte chooses a transcoder: from or to [`typed`](Subject::typed), or between any two
+    /// types of code.
     pub fn transcode(&self, bytes: &mut Bytes<'_>) -> &'static Transcode {
         static ALL: LazyLock<Vec<Transcode>> = LazyLock::new(transcodes);
         let own = &self.typed.transcode;
@@ -175,7 +175,7 @@ impl Subject {
         })
     }
 
-    /// `count` codes from what is left: of any bits, or that of a vector but for one bit.
+    /// `count` codes from what is left: of any bits, or that of a vector with one bit changed.
     pub fn codes(&self, bytes: &mut Bytes<'_>, count: usize) -> Vec<Code> {
         let near = bytes.byte() % 2 == 1;
         let mask = last_pattern(self.format);

@@ -37,8 +37,8 @@ pub fn natives<T: Pod>(codes: &[Code]) -> Vec<T> {
     codes.iter().copied().map(native).collect()
 }
 
-/// Lets `write` change codes, and brings back what it left, whether it failed or not. Not generic over
-/// `write`, so that there is one for each type of code.
+/// Lets `write` change codes, and brings back what it left, whether it failed or not. Not generic
+/// over `write`, so that there is one for each type of code.
 pub fn write_codes<T: Pod, R>(codes: &mut [Code], write: &mut dyn FnMut(&mut [T]) -> R) -> R {
     let mut natives = natives::<T>(codes);
     let result = write(&mut natives);
@@ -143,8 +143,8 @@ pub fn decode_arrays(format: Format, codes: &[Code]) -> Arrays {
     v
 }
 
-/// The loops of all codecs, once in a program. A generic function has no code in this crate, and one
-/// that is not inlined has one copy in the crate that calls it.
+/// The loops of all codecs, once in a program. A generic function has no code in this crate, and
+/// one that is not inlined has one copy in the crate that calls it.
 mod compiled_once {
     use unitpack::{Format, Soa, SoaMut};
 

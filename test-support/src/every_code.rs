@@ -40,8 +40,8 @@ impl Findings {
 
 /// Looks at `count` codes from `first` on. Each
 /// - decodes to the same bits in a slice of [`Format`]'s and alone,
-/// - decodes to a vector whose length is 1 to [`LENGTH_ERROR`] and whose direction is the oracle's to
-///   [`DECODE_ERROR`],
+/// - decodes to a vector whose length is 1 to [`LENGTH_ERROR`] and whose direction is the oracle's
+///   to [`DECODE_ERROR`],
 /// - is encoded again, in such a slice, as its canonical code.
 ///
 /// And of one in `every`, that code is the oracle's, and is what encoding alone gives.
@@ -97,7 +97,8 @@ impl Block<'_> {
         let v: Soa<'_> = self.vectors.read();
         let mut exact = vec![[0.0; 3]; v.x.len()];
         self.oracle.decode_from(self.codes[0], &mut exact);
-        // How far off a length is, and the square of the sine of an angle, infinite beyond 90 degrees.
+        // How far off a length is, and the square of the sine of an angle, infinite beyond 90
+        // degrees.
         let off = |i: usize| {
             let w = widen([v.x[i], v.y[i], v.z[i]]);
             let sine = cross(w, exact[i]);
@@ -167,8 +168,8 @@ impl Block<'_> {
 }
 
 /// Looks at what is made of codes without vectors. Each code
-/// - is made canonical, negated and mirrored in each axis as decoding, doing it to the vector and encoding
-///   precisely does it,
+/// - is made canonical, negated and mirrored in each axis as decoding, doing it to the vector and
+///   encoding precisely does it,
 /// - alone, and in a slice if the format has [`Typed`] functions,
 /// - means the direction of the one before it if both have the same canonical code.
 ///

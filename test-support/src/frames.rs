@@ -25,8 +25,8 @@ pub fn basis([x, y, z]: [f64; 3]) -> [[f64; 3]; 2] {
     [[1.0 + sign * x * x * a, sign * b, -sign * x], [b, sign + y * y * a, -y]]
 }
 
-/// The direction that a frame's tangent is encoded as, about this normal: its part across, or none if it is
-/// parallel to its own normal.
+/// The direction that a frame's tangent is encoded as, about this normal: its part across. `None`
+/// if it is parallel to its own normal.
 pub fn part_across(frame: Frame, normal: [f64; 3]) -> Option<[f64; 3]> {
     let tangent = direction(frame.tangent)?;
     let own = direction(frame.normal).unwrap_or([0.0, 0.0, 1.0]);

@@ -2,17 +2,18 @@
 //!
 //! - [`oracle`]: every format once more, in `f64` and as plainly as can be.
 //! - [`every_code`]: what must hold for every code of a format.
-//! - [`AnyCodec`]: a codec's functions of one vector behind pointers, for every format. A check over them is
-//!   compiled once, not once for each of the codecs.
-//! - [`Typed`]: the functions of slices that only a codec's type has, for one format of each family and
-//!   width of code.
+//! - [`AnyCodec`]: a codec's functions of one vector behind pointers, for every format. A check
+//!   over them is compiled once, not once for each of the codecs.
+//! - [`Typed`]: the functions of slices that only a codec's type has, for one format of each family
+//!   and width of code.
 //! - [`codes`]: codes as integers, and the slices of [`Format`](unitpack::Format).
 //! - [`tables`]: decode tables, likewise.
 //! - [`readme`]: the README's table of codecs.
-//! - [`random`], [`vectors`], [`Arrays`], [`frames`], [`published`] and [`tasks`]: what their names say.
+//! - [`random`], [`vectors`], [`Arrays`], [`frames`], [`published`] and [`tasks`]: what their names
+//!   say.
 //!
-//! Whatever runs a codec is generic or `#[inline]`. So this crate itself contains no codec, and a program
-//! that needs few of them, such as those for mutation testing, is quick to build.
+//! Whatever runs a codec is generic or `#[inline]`. So this crate itself contains no codec, and a
+//! program that needs few of them, such as those for mutation testing, is quick to build.
 
 mod any_codec;
 mod arrays;

@@ -6,7 +6,7 @@ use unitpack::Format;
 const START: &str = "<!-- Written by `cargo run --release -p survey -- --readme README.md` -->";
 const END: &str = "<!-- The end of what it writes -->";
 
-/// A column has each family's largest member of so many bits or fewer that the column before it is
+/// A column has each family's largest member of these bits or fewer that the column before it is
 /// too small for.
 pub const COLUMNS: [u32; 4] = [16, 24, 32, 48];
 
@@ -82,7 +82,7 @@ fn cells(family: &[Format]) -> [Option<Format>; COLUMNS.len()] {
     })
 }
 
-/// The text before the figures of a format, in the column of so many bits.
+/// The text before the figures of a format, in the column of these bits.
 pub fn size(format: Format, column: u32) -> String {
     if format.bits() == column { String::new() } else { format!("{} bits: ", format.bits()) }
 }

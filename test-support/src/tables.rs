@@ -10,8 +10,8 @@ use crate::{Code, Outcome, Vector};
 pub trait Table: Send + Sync {
     /// The vector of one code.
     fn decode(&self, code: Code) -> Vector;
-    /// The functions of slices. Octants have them for one format of each family and width of code only,
-    /// as their loops are compiled for every codec.
+    /// The functions of slices. Octants have them for one format of each family and width of code
+    /// only, as their loops are compiled for every codec.
     fn slices(&self) -> Option<&dyn Slices>;
 }
 
@@ -115,8 +115,8 @@ macro_rules! list {
 #[inline]
 pub fn whole_tables() -> Vec<AnyTable> {
     list! {
-        whole: Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 FrontOct16 QuadFrontOct16
-            OctUnorm8x2 Snorm5x3 Spherical16 PhiZUnorm8x2 HemiOct16 XyOnly16
+        whole: Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 FrontOct16
+            QuadFrontOct16 OctUnorm8x2 Snorm5x3 Spherical16 PhiZUnorm8x2 HemiOct16 XyOnly16
             Stereo16 StereoConcentric16 StereoEllipse16 EqArea16 EqAreaConcentric16 EqAreaEllipse16
             EqDist16 EqDistConcentric16 EqDistEllipse16
             LatLong16 LatLong16D Fibonacci16 Cube16 WarpedCube16

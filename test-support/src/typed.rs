@@ -167,8 +167,9 @@ fn write<T: bytemuck::Pod>(
     write_codes(place.buffer, &mut |codes| write(&mut codes[place.codes.clone()]))
 }
 
-/// One format of each family and width of code: the first of the table. Formulas and loops depend on
-/// these; what depends on the sizes of the parameters shows in the functions of one vector as well.
+/// One format of each family and width of code: the first of the table. Formulas and loops depend
+/// on these; what depends on the sizes of the parameters shows in the functions of one vector as
+/// well.
 pub mod representatives {
     use unitpack::{Format, Visitor};
 
@@ -177,8 +178,8 @@ pub mod representatives {
             /// The list.
             pub const ALL: &[Format] = &[$(Format::$name),*];
 
-            /// Calls a visitor with a codec's type, if it is one of the list. [`Format::visit`] would
-            /// compile the visitor for all codecs.
+            /// Calls a visitor with a codec's type, if it is one of the list. [`Format::visit`]
+            /// would compile the visitor for all codecs.
             #[inline]
             pub fn visit<V: Visitor>(format: Format, visitor: V) -> Option<V::Output> {
                 match format {
@@ -207,8 +208,8 @@ pub mod representatives {
         OctUnorm8x2 OctUnorm16x2 Icosphere162
     }
 
-    /// The name of a family with what all of its formats share, such as "snormx" for snorm8x3, and the
-    /// bytes of a code.
+    /// The name of a family with what all of its formats share, such as "snormx" for snorm8x3, and
+    /// the bytes of a code.
     fn kind(format: Format) -> (String, usize) {
         let family = format.name().replace(|c: char| c.is_ascii_digit(), "");
         (family, format.code_size())

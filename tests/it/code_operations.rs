@@ -1,8 +1,8 @@
-//! Operations on codes: what decoding, doing it to the vector and encoding gives, and what the oracle says
-//! of it.
+//! Operations on codes: what decoding, doing it to the vector and encoding gives, and what the
+//! oracle says of it.
 //!
-//! Each operation is checked alone for all formats, and over slices for one format of each family and
-//! width of code.
+//! Each operation is checked alone for all formats, and over slices for one format of each family
+//! and width of code.
 
 use unitpack::{Axis, Codec, Format};
 use unitpack_test::codes::random_codes;
@@ -76,8 +76,8 @@ fn is_exact(format: Format, axis: Axis) -> bool {
     }
 }
 
-/// What a code becomes: canonical, negated, mirrored in each axis in turn, and mirrored once and twice in
-/// each axis.
+/// What a code becomes: canonical, negated, mirrored in each axis in turn, and mirrored once and
+/// twice in each axis.
 struct Images {
     canonical: Code,
     negated: Code,
@@ -100,7 +100,8 @@ impl Images {
     }
 }
 
-/// An image is in the exact direction, to what `f32` rounds off, if there is such a point, else the nearest to it.
+/// An image is in the exact direction, to what `f32` rounds off, if there is such a point, else the
+/// nearest to it.
 #[test]
 fn images_are_where_the_oracle_has_them() {
     let formats: Vec<_> = Format::ALL.iter().copied().filter(|&f| f != Format::Float32x3).collect();

@@ -1,8 +1,9 @@
-//! Decoding through a table gives the bits that `decode` gives, for every pattern of every format of at
-//! most 16 bits.
+//! Decoding through a table gives the bits that `decode` gives, for every pattern of every format
+//! of at most 16 bits.
 //!
-//! The tables that are chosen at run time, those of every code and those of an octant are checked for
-//! all of these formats. The slices of octants are checked for one format of each family and width.
+//! The tables that are chosen at run time, those of every code and those of an octant are checked
+//! for all of these formats. The slices of octants are checked for one format of each family and
+//! width.
 
 use std::collections::BTreeSet;
 

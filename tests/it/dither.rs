@@ -1,7 +1,7 @@
 //! Dither raises no error and averages out; stochastic rounding has the right mean. Against `f64`.
 //!
-//! The functions of one vector are checked for all formats. The slices are compared with them for one
-//! format of each family and width of code.
+//! The functions of one vector are checked for all formats. The slices are compared with them for
+//! one format of each family and width of code.
 
 use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::*;
@@ -34,7 +34,8 @@ fn rotated(format: Format, seed: u32, index: u32, v: [f64; 3], back: bool) -> [f
     core::array::from_fn(|i| v[i] * cos + aside[i] * sin + axis[i] * along * (1.0 - cos))
 }
 
-/// The functions of one vector with dither: what a [`Dither`] does for an element and a vector or code.
+/// The functions of one vector with dither: what a [`Dither`] does for an element and a vector or
+/// code.
 struct Dithered {
     format: Format,
     encode: fn(Dither, u32, Vector) -> Code,
@@ -119,8 +120,8 @@ fn error_is_no_greater(dithered: &Dithered, codec: &AnyCodec) -> Result<(), Stri
             }
         }
     }
-    // The mean over all directions stays too. Where a few directions are far worse than most, chance has
-    // more to say.
+    // The mean over all directions stays too. Where a few directions are far worse than most,
+    // chance has more to say.
     let [plain, fast, plain_precise, precise] = sums;
     let apart = |a: f64, b: f64| (a - b).abs() > 0.06 * a.max(b) + f64::from(count) * ROUNDING;
     if is_coarse(format) && (apart(plain, fast) || apart(plain_precise, precise)) {

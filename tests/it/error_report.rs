@@ -40,7 +40,8 @@ fn agree(report: f64, exact: f64) -> bool {
 fn reports_agree_with_the_errors_one_by_one() {
     let all = mixed_vectors(9, special_vectors().len() + 1000);
     check_all(Format::ALL, |&format| {
-        // What is 0, NaN or infinite stands for a direction, which the oracle of another format knows.
+        // What is 0, NaN or infinite stands for a direction, which the oracle of another format
+        // knows.
         let sphere = oracle("oct16");
         for count in [0, 1, 63, 64, 65, 1000] {
             let vectors = &all[all.len() - count - 500..all.len() - 500];

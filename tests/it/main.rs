@@ -2,10 +2,10 @@
 //!
 //! What is generic over codecs is compiled for each of them, so checks are not. They reach
 //!
-//! - every format through the slices of `Format` and, one vector or code at a time, through the function
-//!   pointers of `unitpack_test::AnyCodec`;
-//! - what only a codec's type has, slices above all, for one format of each family and width of code,
-//!   through `unitpack_test::Typed` or a visitor of `unitpack_test::representatives`.
+//! - every format through the slices of `Format` and, one vector or code at a time, through the
+//!   function pointers of `unitpack_test::AnyCodec`;
+//! - what only a codec's type has, slices above all, for one format of each family and width of
+//!   code, through `unitpack_test::Typed` or a visitor of `unitpack_test::representatives`.
 
 mod axes;
 mod code_operations;

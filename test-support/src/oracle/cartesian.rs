@@ -75,7 +75,7 @@ impl Representation for Snorm {
     }
 }
 
-/// x, y and z as biased unorm of so many bits, x in the low ones. Parameters count the values up
+/// x, y and z as biased unorm of this many bits, x in the low ones. Parameters count the values up
 /// from -1, in odd multiples of 1 / steps.
 pub(super) struct Unorm(pub(super) u32);
 
@@ -167,7 +167,7 @@ impl Representation for Float16 {
     }
     fn nearby(&self, v: [f64; 3], _: f64) -> Vec<Params<i64>> {
         // Halves look the same at every power of two, so one octave of the largest component has
-        // them all, but for components below 2^-24 of it.
+        // them all, except components below 2^-24 of it.
         let long = (0..3).max_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs())).unwrap();
         let around = |n: i64| {
             let scale = half::value(n) / v[long].abs();

@@ -1,4 +1,5 @@
-//! Projections of a hemisphere to a disk: stereo, eqarea and eqdist, plain or stretched to a square.
+//! Projections of a hemisphere to a disk: stereo, eqarea and eqdist, plain or stretched to a
+//! square.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2, TAU};
 
@@ -28,7 +29,7 @@ pub(super) struct Disk {
 }
 
 impl Disk {
-    /// How far from the middle of the disk a direction stands, by the cosine and sine of its angle
+    /// How far from the middle of the disk a direction is, by the cosine and sine of its angle
     /// from the pole of the hemisphere; in the other hemisphere, beyond 1.
     fn radius(&self, cos: f64, sin: f64) -> f64 {
         let angle = sin.atan2(cos);

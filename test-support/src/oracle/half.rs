@@ -14,7 +14,7 @@ pub fn value(ordinal: i64) -> f64 {
     if ordinal < 0 { -magnitude } else { magnitude }
 }
 
-/// Where `x` stands among the halves: whole at a half, and in proportion between two. The even
+/// The place of `x` among the halves: whole at a half, and in proportion between two. The even
 /// one of two halves has the even integer, so rounding the position is rounding `x`.
 pub fn position(x: f64) -> f64 {
     let magnitude = x.abs();

@@ -52,7 +52,7 @@ trait Representation: Send + Sync {
     fn params_error(&self) -> f64;
     /// Least and greatest value of each parameter.
     fn range(&self) -> Params<(i64, i64)>;
-    /// The unit vector that parameters in range stand for.
+    /// The unit vector that parameters in range mean.
     fn vector(&self, params: Params<i64>) -> [f64; 3];
     fn pack(&self, params: Params<i64>) -> u128;
     /// Total: patterns that no encoder gives read as their neighbours.
@@ -74,8 +74,8 @@ trait Representation: Send + Sync {
         false
     }
 
-    /// All tuples that rounding the parameters of `v` may give: one, but for parameters that `f32`
-    /// cannot tell from a tie.
+    /// All tuples that rounding the parameters of `v` may give: one, and more where `f32` cannot
+    /// tell a parameter from a tie.
     fn rounded(&self, v: [f64; 3]) -> Vec<Params<i64>> {
         let error = self.params_error();
         let of = self.params(v).map(|p| rounding(p, error));
@@ -117,7 +117,7 @@ fn around(middle: Params<i64>, reach: Params<i64>) -> Params<(i64, i64)> {
     std::array::from_fn(|i| (middle[i] - reach[i], middle[i] + reach[i]))
 }
 
-/// The integers that `p`, known but for `error`, may be rounded to: the least and the greatest.
+/// The integers that `p`, known to within `error`, may be rounded to: the least and the greatest.
 fn rounding(p: f64, error: f64) -> (i64, i64) {
     ((p - error).round_ties_even() as i64, (p + error).round_ties_even() as i64)
 }
@@ -142,7 +142,7 @@ pub struct Oracle {
 }
 
 impl Oracle {
-    /// The direction that an input stands for; only that matters. Zero and NaN are +Z, infinities
+    /// The direction of an input; only that matters. Zero and NaN are +Z, infinities
     /// their limit.
     pub fn target(&self, v: [f32; 3]) -> [f64; 3] {
         let mut v = v.map(f64::from);
@@ -174,7 +174,7 @@ impl Oracle {
         self.representation.pack(self.representation.canonical(params))
     }
 
-    /// Every code that the fast encoder may give: one, but for parameters that `f32` cannot tell
+    /// Every code that the fast encoder may give: one, and more where `f32` cannot tell a parameter
     /// from a tie.
     pub fn encodings(&self, v: [f64; 3]) -> Vec<u128> {
         let pack = |params| self.representation.pack(self.representation.canonical(params));
@@ -204,7 +204,8 @@ pub fn oracle(name: &str) -> Oracle {
     })
 }
 
-/// The oracle of a format, by its name; `None` for an unknown name. This is the list of all formats.
+/// The oracle of a format, by its name; `None` for an unknown name. This is the list of all
+/// formats.
 pub fn find(name: &str) -> Option<Oracle> {
     // latlong16D and XYOnly32F have their size in the middle.
     let stem = name.strip_suffix('D').unwrap_or(name);
@@ -313,7 +314,7 @@ impl Pair {
         }
     }
 
-    /// Where a number from -1 to 1 stands.
+    /// The place of a number from -1 to 1, in steps.
     fn position(self, t: f64) -> f64 {
         match self.kind {
             Kind::Snorm | Kind::Sixes => t * self.steps() as f64,
@@ -321,7 +322,7 @@ impl Pair {
         }
     }
 
-    /// The number from -1 to 1 that `param` stands for.
+    /// The number from -1 to 1 that `param` means.
     fn value(self, param: i64) -> f64 {
         let steps = self.steps();
         match self.kind {

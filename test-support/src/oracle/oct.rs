@@ -22,7 +22,7 @@ impl Octahedral for Central {
     }
 }
 
-/// Each coordinate t of the octahedron stands for t (1 + (k + q t) (1 - t)).
+/// Each coordinate t of the octahedron means t (1 + (k + q t) (1 - t)).
 pub(super) struct Warped;
 
 impl Warped {

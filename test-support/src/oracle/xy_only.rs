@@ -42,7 +42,7 @@ impl XyOnly {
         x * x + y * y >= 1.0
     }
 
-    /// The point of the rim that a code beyond it stands for: the smaller component's parameter,
+    /// The point of the rim that a code beyond it means: the smaller component's parameter,
     /// cut where the diagonal has passed it, and whether that component is x.
     fn smaller(&self, [x, y, _]: Params<i64>) -> (i64, bool) {
         let x_is_smaller = self.0.value(x).abs() < self.0.value(y).abs();

@@ -1,9 +1,9 @@
-//! Every entry point of a codec gives the same bits, with any number of lanes. The functions for one
-//! vector, which run on one lane, are the measure of the others:
+//! Every entry point of a codec gives the same bits, with any number of lanes. The functions for
+//! one vector, which run on one lane, are the measure of the others:
 //!
 //! - for all formats, the slices of `Format`;
-//! - for one format of each family and width of code, the slices of its type: structures of arrays, arrays
-//!   of structures, transcoding.
+//! - for one format of each family and width of code, the slices of its type: structures of arrays,
+//!   arrays of structures, transcoding.
 //!
 //! `PROPTEST_CASES=20000 cargo test entry_points_agree` searches for longer.
 
@@ -114,7 +114,8 @@ fn transcoders_agree_between_all_types_of_code() -> TestCaseResult {
     Ok(())
 }
 
-/// Up to eight components are rearranged in vectors, more are not. What is beyond three stays as it is.
+/// Up to eight components are rearranged in vectors, more are not. What is beyond three stays as it
+/// is.
 fn of_components<const N: usize>() {
     for len in [1, 15, 16, 255, 257, 530] {
         let mut rng = Rng::new(len as u64);
