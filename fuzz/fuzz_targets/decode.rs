@@ -3,13 +3,15 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use unitpack_fuzz::common::every_code::{DECODE_ERROR, LENGTH_ERROR};
-use unitpack_fuzz::common::{angle, last_pattern, length, widen};
-use unitpack_fuzz::{AnyCodec, Bytes, Code, ROUNDING, bits};
+use unitpack_fuzz::{Bytes, ROUNDING, Subject};
+use unitpack_test::codes::last_pattern;
+use unitpack_test::every_code::{DECODE_ERROR, LENGTH_ERROR};
+use unitpack_test::vectors::{angle, bits, length, widen};
+use unitpack_test::{Code, Operation};
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
-    let codec = AnyCodec::choose(&mut bytes);
+    let codec = Subject::choose(&mut bytes);
     let (format, oracle) = (codec.format, codec.oracle());
     let count = 1 + data.len() / format.code_size();
     let most = if codec.is_finer_than_f32() { 2 } else { 8 };
@@ -51,23 +53,26 @@ fuzz_target!(|data: &[u8]| {
     }
 });
 
-fn operations(codec: &AnyCodec, codes: &[Code]) {
+fn operations(codec: &Subject, codes: &[Code]) {
     let format = codec.format;
     // More than a block of lanes.
     let many: Vec<Code> = codes.iter().copied().cycle().take(19).collect();
-    for operation in &codec.operations {
-        let expected = |&code: &Code| {
-            let v = (codec.decode)(code);
-            let i_th = |i: usize| if operation.negates[i] { -v[i] } else { v[i] };
-            (codec.encode_precise)([0, 1, 2].map(i_th))
-        };
-        let expected: Vec<Code> = codes.iter().map(expected).collect();
-        let one: Vec<Code> = codes.iter().map(|&code| (operation.one)(code)).collect();
-        assert_eq!(one, expected, "{format} {codes:x?}, {:?}", operation.negates);
+    for operation in Operation::ALL {
+        let by_vector =
+            |&code: &Code| (codec.encode_precise)(operation.apply((codec.decode)(code)));
+        let expected: Vec<Code> = codes.iter().map(by_vector).collect();
+        let one: Vec<Code> = codes.iter().map(|&code| codec.operate(operation, code)).collect();
+        assert_eq!(one, expected, "{format} {codes:x?}, {operation:?}");
+
+        // Slices, of the format of this family and width that has them.
+        let typed = codec.typed();
+        let alone = Subject::of(typed.format);
+        let many: Vec<Code> = many.iter().map(|code| code & last_pattern(typed.format)).collect();
         let mut slice = many.clone();
-        (operation.slice)(&mut slice);
-        for (slice, one) in slice.iter().zip(one.iter().cycle()) {
-            assert_eq!(slice, one, "{format} {many:x?}, {:?}", operation.negates);
+        (typed.operate)(operation, &mut slice);
+        for (&code, &slice) in many.iter().zip(&slice) {
+            let one = alone.operate(operation, code);
+            assert_eq!(slice, one, "{} {many:x?}, {operation:?}", typed.format);
         }
     }
     for (&a, &b) in codes.iter().zip(&codes[1..]) {

@@ -5,12 +5,13 @@
 use std::sync::OnceLock;
 
 use libfuzzer_sys::fuzz_target;
-use unitpack_fuzz::common::{angle, dot, oracle::chord_squared, widen};
-use unitpack_fuzz::{AnyCodec, Bytes, ROUNDING, Vector, bits};
+use unitpack_fuzz::{Bytes, ROUNDING, Subject};
+use unitpack_test::Vector;
+use unitpack_test::vectors::{angle, bits, chord_squared, dot, widen};
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
-    let codec = AnyCodec::choose(&mut bytes);
+    let codec = Subject::choose(&mut bytes);
     let power = i32::from(bytes.byte() as i8);
     let most = if codec.is_finer_than_f32() { 2 } else { 8 };
     for (i, v) in
@@ -26,7 +27,7 @@ fuzz_target!(|data: &[u8]| {
     }
 });
 
-fn check(codec: &AnyCodec, v: Vector, power: i32, search: bool) {
+fn check(codec: &Subject, v: Vector, power: i32, search: bool) {
     let oracle = codec.oracle();
     let target = oracle.target(v);
     let of = || format!("{} of {v:?} = {:x?}", codec.format, bits(v));
@@ -65,7 +66,7 @@ fn check(codec: &AnyCodec, v: Vector, power: i32, search: bool) {
 
 /// The angle to the nearest code: of all where there are few, else of those that the oracle finds
 /// around.
-fn nearest(codec: &AnyCodec, target: [f64; 3]) -> f64 {
+fn nearest(codec: &Subject, target: [f64; 3]) -> f64 {
     static ALL: [OnceLock<Vec<[f64; 3]>>; 256] = [const { OnceLock::new() }; 256];
     if codec.format.bits() > 12 {
         return codec.oracle().nearest_angle(target);

@@ -2,19 +2,12 @@
 //! batches give what single calls give.
 #![no_main]
 
-use std::f64::consts::TAU;
-
 use libfuzzer_sys::fuzz_target;
 use unitpack::SphericalFibonacci;
-use unitpack_fuzz::common::{angle, length, widen};
-use unitpack_fuzz::{Arrays, Bytes, ROUNDING, Vector, bits};
-
-fn exact(i: u32, n: u32) -> [f64; 3] {
-    let z = 1.0 - f64::from(2 * i + 1) / f64::from(n);
-    let (sin, cos) = (TAU * f64::from(i.wrapping_mul(0x9E37_79B9)) / 2f64.powi(32)).sin_cos();
-    let r = ((1.0 - z) * (1.0 + z)).sqrt();
-    [r * cos, r * sin, z]
-}
+use unitpack_fuzz::{Bytes, ROUNDING};
+use unitpack_test::oracle::fibonacci_point as exact;
+use unitpack_test::vectors::{angle, bits, length, widen};
+use unitpack_test::{Arrays, Vector};
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
@@ -41,7 +34,7 @@ fuzz_target!(|data: &[u8]| {
         rest.as_flattened().as_chunks().0.iter().map(|&i| u32::from_le_bytes(i)).collect();
     let mut soa = Arrays::unwritten([given.len(); 3]);
     points.decode_soa(&given, soa.write()).unwrap();
-    for (&index, v) in given.iter().zip(soa.vectors()) {
+    for (&index, v) in given.iter().zip(soa.iter()) {
         let decoded = points.decode(index);
         assert_eq!(bits(decoded), bits(v), "{n} points: {index}");
         let last = index.min(n - 1);

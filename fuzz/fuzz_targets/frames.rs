@@ -6,11 +6,10 @@ use std::f64::consts::PI;
 use libfuzzer_sys::fuzz_target;
 use unitpack::frame::{Frame, FrameCodec, OctAngle32, OctAngle64, QTangent64, Skew};
 use unitpack::{Codec, Oct22, Oct32};
-use unitpack_fuzz::common::frames::{
-    basis, direction, oct_angle, part_across, quaternion, vectors,
-};
-use unitpack_fuzz::common::{angle, cross, dot, length, widen};
-use unitpack_fuzz::{Bytes, FrameArrays, UNWRITTEN};
+use unitpack_fuzz::{Bytes, FrameArrays};
+use unitpack_test::UNWRITTEN;
+use unitpack_test::frames::{basis, direction, oct_angle, part_across, quaternion, vectors};
+use unitpack_test::vectors::{angle, cross, dot, length, widen};
 
 /// What rounding to f32 may add to an angle, in radians.
 const ROUNDING: f64 = 1e-6;

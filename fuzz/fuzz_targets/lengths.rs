@@ -11,17 +11,18 @@ use unitpack::quaternion::{
 };
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{CodeInt, Format, LengthMismatch, Oct8, Soa, SoaMut, SphericalFibonacci};
-use unitpack_fuzz::common::last_pattern;
-use unitpack_fuzz::{AnyCodec, Arrays, Bytes, FrameArrays, Outcome, Transcode, UNWRITTEN};
+use unitpack_fuzz::{Bytes, FrameArrays, Subject};
+use unitpack_test::codes::{decode_slice, encode_slice, last_pattern};
+use unitpack_test::{Arrays, Effort, Outcome, Place, Transcode, Typed, UNWRITTEN};
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
-    let codec = AnyCodec::choose(&mut bytes);
-    let transcode = bytes.choose(&codec.transcode);
+    let codec = Subject::choose(&mut bytes);
+    let transcode = codec.transcode(&mut bytes);
     let least = bytes.length(10);
     // The same, mostly, or one of any length.
     let lengths = [(); 4].map(|()| if bytes.byte() % 3 == 0 { bytes.length(10) } else { least });
-    codecs(codec, transcode, lengths);
+    codecs(codec.typed(), transcode, lengths);
     format_bytes(codec.format, lengths, bytes.byte() % 3 == 0);
     scalars(lengths);
     packed(lengths);
@@ -66,20 +67,22 @@ fn check<T: Clone + PartialEq>(
     }
 }
 
-fn codecs(codec: &AnyCodec, transcode: &Transcode, lengths: [usize; 4]) {
+fn codecs(codec: &Typed, transcode: &Transcode, lengths: [usize; 4]) {
     let format = codec.format;
     let [x, y, z, codes] = lengths;
     let unwritten = |len: usize| vec![last_pattern(format) & 0xA5A5_A5A5_A5A5_A5A5_A5A5_A5A5; len];
-    let arrays = Arrays([x, y, z].map(|len| vec![0.5; len]));
+    let arrays = Arrays::filled([x, y, z], 0.5);
     let error = LengthMismatch::Soa { x, y, z, codes };
     let mismatch = unless(lengths == [x; 4], error, &lengths);
-    for encode in [codec.encode_soa, codec.encode_soa_precise] {
-        let of = format!("{format} encode_soa");
-        check(&of, unwritten(codes), mismatch, |codes| encode(arrays.read(), codes));
+    for effort in Effort::BOTH {
+        let of = format!("{format} encode_soa, {effort:?}");
+        check(&of, unwritten(codes), mismatch, |codes| {
+            (codec.encode_soa)(effort, arrays.read(), Place::from(&mut codes[..]))
+        });
     }
     let of = format!("{format} decode_soa");
     check(&of, Arrays::unwritten([x, y, z]), mismatch, |v| {
-        (codec.decode_soa)(&unwritten(codes), v.write())
+        (codec.decode_soa)(&unwritten(codes), 0..codes, v.write())
     });
 
     let vectors = x;
@@ -87,8 +90,10 @@ fn codecs(codec: &AnyCodec, transcode: &Transcode, lengths: [usize; 4]) {
     for aos in &codec.aos {
         let of = format!("{format}, structures of {}", aos.floats);
         let structures = vec![0.5; aos.floats * vectors];
-        for encode in [aos.encode, aos.encode_precise] {
-            check(&of, unwritten(y), mismatch, |codes| encode(&structures, codes));
+        for effort in Effort::BOTH {
+            check(&of, unwritten(y), mismatch, |codes| {
+                (aos.encode)(effort, &structures, Place::from(&mut codes[..]))
+            });
         }
         let structures = vec![UNWRITTEN; structures.len()];
         check(&of, structures, mismatch, |v| (aos.decode)(&unwritten(y), v));
@@ -97,7 +102,7 @@ fn codecs(codec: &AnyCodec, transcode: &Transcode, lengths: [usize; 4]) {
     let mismatch = unless(x == y, LengthMismatch::Transcode { src: x, dst: y }, &lengths[..2]);
     let of = format!("{} to {}", transcode.from, transcode.to);
     let unwritten = vec![last_pattern(transcode.to) & 0xA5A5_A5A5_A5A5; y];
-    check(&of, unwritten, mismatch, |dst| (transcode.run)(&vec![1; x], dst));
+    check(&of, unwritten, mismatch, |dst| (transcode.run)(&vec![1; x], Place::from(&mut dst[..])));
 }
 
 fn format_bytes(format: Format, [x, y, z, codes]: [usize; 4], one_more: bool) {
@@ -106,12 +111,13 @@ fn format_bytes(format: Format, [x, y, z, codes]: [usize; 4], one_more: bool) {
     let error = LengthMismatch::Bytes { x, y, z, bytes, code_size };
     let lengths = [x, y, z, bytes, code_size];
     let mismatch = unless(x == y && y == z && bytes == x * code_size, error, &lengths);
-    let arrays = Arrays([x, y, z].map(|len| vec![0.5; len]));
+    let arrays = Arrays::filled([x, y, z], 0.5);
     let of = format!("{format} in bytes");
-    check(&of, vec![0xA5; bytes], mismatch, |b| format.encode(arrays.read(), b));
-    check(&of, vec![0xA5; bytes], mismatch, |b| format.encode_precise(arrays.read(), b));
+    for effort in Effort::BOTH {
+        check(&of, vec![0xA5; bytes], mismatch, |b| encode_slice(format, effort, arrays.read(), b));
+    }
     let unwritten = Arrays::unwritten([x, y, z]);
-    check(&of, unwritten.clone(), mismatch, |v| format.decode(&vec![1; bytes], v.write()));
+    check(&of, unwritten.clone(), mismatch, |v| decode_slice(format, &vec![1; bytes], v.write()));
     if format.bits() <= 8 {
         let mut vectors = vec![[0.0; 3]; 1 << format.bits()];
         let table = FormatTable::fill(format, &mut vectors).unwrap();

@@ -6,16 +6,21 @@ use std::f64::consts::{PI, TAU};
 use libfuzzer_sys::fuzz_target;
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::{CodeInt, LengthMismatch};
-use unitpack_fuzz::{Bytes, Code, UNWRITTEN, natives, write_codes};
+use unitpack_fuzz::Bytes;
+use unitpack_test::codes::{natives, write_codes};
+use unitpack_test::{Code, UNWRITTEN};
 
 /// How far off the nearest code rounding to f32 may lead, in radians.
 const ROUNDING: f64 = 1.3e-7;
 
 /// Codes of one integer type.
 struct Soa {
-    encode: fn(&[f32], &[f32], &mut [Code]) -> Result<(), LengthMismatch>,
-    decode: fn(&[Code], &mut [f32], &mut [f32]) -> Result<(), LengthMismatch>,
+    encode: Encode,
+    decode: Decode,
 }
+
+type Encode = fn(&[f32], &[f32], &mut [Code]) -> Result<(), LengthMismatch>;
+type Decode = fn(&[Code], &mut [f32], &mut [f32]) -> Result<(), LengthMismatch>;
 
 struct Width {
     bits: u32,
@@ -28,7 +33,7 @@ struct Width {
 const fn soa<const BITS: u32, T: CodeInt>() -> Soa {
     Soa {
         encode: |x, y, codes| {
-            write_codes::<T, _>(codes, |codes| Angle::<BITS>::encode_soa(x, y, codes))
+            write_codes::<T, _>(codes, &mut |codes| Angle::<BITS>::encode_soa(x, y, codes))
         },
         decode: |codes, x, y| Angle::<BITS>::decode_soa(&natives::<T>(codes), x, y),
     }

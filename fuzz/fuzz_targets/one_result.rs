@@ -1,76 +1,94 @@
-//! Structures of arrays, arrays of structures, bytes and transcoding give the bits that single
-//! vectors give.
+//! Slices of formats, structures of arrays, arrays of structures and transcoding give the bits that
+//! single vectors give.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use unitpack::Format;
-use unitpack_fuzz::{AnyCodec, Arrays, Bytes, Code, UNWRITTEN, Vector, all_bits, bits};
+use unitpack_fuzz::{Bytes, Subject};
+use unitpack_test::codes::{decode_slice, encode_slice, to_bytes};
+use unitpack_test::vectors::bits;
+use unitpack_test::{Arrays, Code, Effort, Place, UNWRITTEN, Vector};
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
-    let codec = AnyCodec::choose(&mut bytes);
+    let codec = Subject::choose(&mut bytes);
     let count = codec.count(&mut bytes);
     let at = bytes.length(7);
-    let transcode = bytes.choose(&codec.transcode);
-    encoders(codec, at, &codec.vectors(&mut Bytes(bytes.0), count));
-    decoders(codec, at, &codec.codes(&mut Bytes(bytes.0), count));
+    let transcode = codec.transcode(&mut bytes);
+    let vectors = codec.vectors(&mut Bytes(bytes.0), count);
+    let codes = codec.codes(&mut Bytes(bytes.0), count);
+    encoders(codec, at, &vectors);
+    decoders(codec, at, &codes);
+    // A format of the same family and width has the functions of its type too.
+    let typed = Subject::of(codec.typed().format);
+    typed_encoders(typed, &typed.vectors(&mut Bytes(bytes.0), count));
+    typed_decoders(typed, &typed.codes(&mut Bytes(bytes.0), count));
 
-    let (a, b) = (AnyCodec::of(transcode.from), AnyCodec::of(transcode.to));
+    let (a, b) = (Subject::of(transcode.from), Subject::of(transcode.to));
     let from = a.codes(&mut Bytes(bytes.0), count);
     let mut to = vec![0; count];
-    (transcode.run)(&from, &mut to).unwrap();
+    (transcode.run)(&from, Place::from(&mut to[..])).unwrap();
     for (code, got) in from.into_iter().zip(to) {
         assert_eq!(got, (b.encode)((a.decode)(code)), "{} {code:x} to {}", a.format, b.format);
     }
 });
 
-fn encoders(codec: &AnyCodec, at: usize, vectors: &[Vector]) {
+fn encoders(codec: &Subject, at: usize, vectors: &[Vector]) {
     let format = codec.format;
     let arrays = Arrays::from(vectors);
-    let fast: Vec<Code> = vectors.iter().map(|&v| (codec.encode)(v)).collect();
-    let precise: Vec<Code> = vectors.iter().map(|&v| (codec.encode_precise)(v)).collect();
-    let run = |encode: &dyn Fn(&mut [Code])| {
-        let mut codes = vec![!0; vectors.len()];
-        encode(&mut codes);
-        codes
-    };
-    let soa = run(&|codes| (codec.encode_soa)(arrays.read(), codes).unwrap());
-    assert_eq!(soa, fast, "{format}");
-    let soa = run(&|codes| (codec.encode_soa_precise)(arrays.read(), codes).unwrap());
-    assert_eq!(soa, precise, "{format}, precise");
-    for aos in &codec.aos {
-        let structures: Vec<f32> = vectors
-            .iter()
-            .flat_map(|v| v.iter().copied().chain([UNWRITTEN; 8]).take(aos.floats))
-            .collect();
-        let codes = run(&|codes| (aos.encode)(&structures, codes).unwrap());
-        assert_eq!(codes, fast, "{format}, structures of {}", aos.floats);
-        let codes = run(&|codes| (aos.encode_precise)(&structures, codes).unwrap());
-        assert_eq!(codes, precise, "{format}, precise, structures of {}", aos.floats);
-    }
-
-    let size = format.code_size();
-    for (encode, codes) in
-        [(Format::encode as fn(_, _, &mut [u8]) -> _, fast), (Format::encode_precise, precise)]
-    {
+    for effort in Effort::BOTH {
         // At any alignment.
-        let mut bytes = vec![0xA5; at + vectors.len() * size];
-        encode(format, arrays.read(), &mut bytes[at..]).unwrap();
-        let expected: Vec<u8> =
-            codes.iter().flat_map(|c| c.to_le_bytes()[..size].to_vec()).collect();
-        assert_eq!(bytes[at..], expected, "{format}, bytes from {at}");
-        assert_eq!(bytes[..at], vec![0xA5; at], "{format}, bytes from {at}");
+        let expected = to_bytes(format, &codec.encode_each(effort, vectors));
+        let mut bytes = vec![0xA5; at + expected.len()];
+        encode_slice(format, effort, arrays.read(), &mut bytes[at..]).unwrap();
+        assert_eq!(bytes[at..], expected, "{format} {effort:?}, bytes from {at}");
+        assert_eq!(bytes[..at], vec![0xA5; at], "{format} {effort:?}, bytes from {at}");
     }
 }
 
-fn decoders(codec: &AnyCodec, at: usize, codes: &[Code]) {
-    let format = codec.format;
-    let single: Vec<_> = codes.iter().map(|&code| bits((codec.decode)(code))).collect();
-    let mut soa = Arrays::unwritten([codes.len(); 3]);
-    (codec.decode_soa)(codes, soa.write()).unwrap();
-    assert_eq!(all_bits(&soa.vectors()), single, "{format}");
+fn typed_encoders(codec: &Subject, vectors: &[Vector]) {
+    let (format, typed) = (codec.format, codec.typed());
+    let arrays = Arrays::from(vectors);
+    for effort in Effort::BOTH {
+        let expected = codec.encode_each(effort, vectors);
+        let check = |what: &str, encode: &dyn Fn(Place<'_>)| {
+            let mut codes = vec![!0; vectors.len()];
+            encode(Place::from(&mut codes[..]));
+            assert_eq!(codes, expected, "{format} {effort:?}, {what}");
+        };
+        check("arrays", &|to| (typed.encode_soa)(effort, arrays.read(), to).unwrap());
+        for aos in &typed.aos {
+            let structures: Vec<f32> = vectors
+                .iter()
+                .flat_map(|v| v.iter().copied().chain([UNWRITTEN; 8]).take(aos.floats))
+                .collect();
+            let what = format!("structures of {}", aos.floats);
+            check(&what, &|to| (aos.encode)(effort, &structures, to).unwrap());
+        }
+    }
+}
 
-    for aos in &codec.aos {
+fn decoders(codec: &Subject, at: usize, codes: &[Code]) {
+    let format = codec.format;
+    let single = singles(codec, codes);
+    let mut bytes = vec![0xA5; at];
+    bytes.extend(to_bytes(format, codes));
+    let mut soa = Arrays::unwritten([codes.len(); 3]);
+    decode_slice(format, &bytes[at..], soa.write()).unwrap();
+    assert!(soa.bits().eq(single), "{format}, bytes from {at}: {soa:?}");
+}
+
+fn singles(codec: &Subject, codes: &[Code]) -> Vec<[u32; 3]> {
+    codes.iter().map(|&code| bits((codec.decode)(code))).collect()
+}
+
+fn typed_decoders(codec: &Subject, codes: &[Code]) {
+    let (format, typed) = (codec.format, codec.typed());
+    let single = singles(codec, codes);
+    let mut soa = Arrays::unwritten([codes.len(); 3]);
+    (typed.decode_soa)(codes, 0..codes.len(), soa.write()).unwrap();
+    assert!(soa.bits().eq(single.iter().copied()), "{format}: {soa:?}");
+
+    for aos in &typed.aos {
         let mut structures = vec![UNWRITTEN; aos.floats * codes.len()];
         (aos.decode)(codes, &mut structures).unwrap();
         for (structure, single) in structures.chunks(aos.floats).zip(&single) {
@@ -79,11 +97,4 @@ fn decoders(codec: &AnyCodec, at: usize, codes: &[Code]) {
             assert!(others.iter().all(|&c| c == UNWRITTEN), "{format} wrote {others:?}");
         }
     }
-
-    let size = format.code_size();
-    let mut bytes = vec![0xA5; at];
-    bytes.extend(codes.iter().flat_map(|c| c.to_le_bytes()[..size].to_vec()));
-    let mut soa = Arrays::unwritten([codes.len(); 3]);
-    format.decode(&bytes[at..], soa.write()).unwrap();
-    assert_eq!(all_bits(&soa.vectors()), single, "{format}, bytes from {at}");
 }

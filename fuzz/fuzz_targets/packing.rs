@@ -4,7 +4,9 @@
 use libfuzzer_sys::fuzz_target;
 use unitpack::packing::*;
 use unitpack::{CodeInt, LengthMismatch};
-use unitpack_fuzz::{Bytes, Code, UNWRITTEN, natives, write_codes};
+use unitpack_fuzz::Bytes;
+use unitpack_test::codes::{natives, write_codes};
+use unitpack_test::{Code, UNWRITTEN};
 
 struct Dense {
     bits: u32,
@@ -19,7 +21,7 @@ const fn dense<const BITS: u32, C: CodeInt>() -> Dense {
         integer: 8 * size_of::<C>() as u32,
         pack: |codes, bytes| pack_dense::<BITS, C>(&natives(codes), bytes),
         unpack: |bytes, codes| {
-            write_codes::<C, _>(codes, |codes| unpack_dense::<BITS, C>(bytes, codes))
+            write_codes::<C, _>(codes, &mut |codes| unpack_dense::<BITS, C>(bytes, codes))
         },
     }
 }

@@ -8,7 +8,8 @@ use libfuzzer_sys::fuzz_target;
 use unitpack::quaternion::{
     QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
 };
-use unitpack_fuzz::{Bytes, UNWRITTEN};
+use unitpack_fuzz::Bytes;
+use unitpack_test::UNWRITTEN;
 
 /// How far off the nearest code rounding to f32 may lead, as a chord in 4D.
 const ROUNDING: f64 = 3e-7;

@@ -5,7 +5,9 @@
 use libfuzzer_sys::fuzz_target;
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{CodeInt, LengthMismatch};
-use unitpack_fuzz::{Bytes, Code, UNWRITTEN, integer, native, natives, write_codes};
+use unitpack_fuzz::Bytes;
+use unitpack_test::codes::{integer, native, natives, write_codes};
+use unitpack_test::{Code, UNWRITTEN};
 
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Kind {
@@ -34,7 +36,9 @@ struct Grid {
 const fn slices<S: Scalar, C: CodeInt>() -> Slices {
     Slices {
         bits: 8 * size_of::<C>() as u32,
-        encode: |values, codes| write_codes::<C, _>(codes, |codes| S::encode_slice(values, codes)),
+        encode: |values, codes| {
+            write_codes::<C, _>(codes, &mut |codes| S::encode_slice(values, codes))
+        },
         decode: |codes, values| S::decode_slice(&natives::<C>(codes), values),
     }
 }

@@ -4,9 +4,10 @@ use std::cell::RefCell;
 use std::time::Duration;
 
 use unitpack::{Codec, Format, LengthMismatch, Soa, Visitor};
+use unitpack_test::Arrays;
 
-use crate::contest::{Contest, timed};
-use crate::{Data, Vectors};
+use crate::Data;
+use crate::timing::{Contest, timed};
 
 /// How many vectors are encoded precisely, which some codecs take long for.
 const PRECISE: usize = 256;
@@ -49,10 +50,12 @@ impl Visitor for Row<'_> {
 fn decode<C: Codec>(data: &Data) -> [f64; 2] {
     let codes = data.codes::<C>();
     let contest = Contest::new("decode", data.len(), "batch")
-        .add("batch", || timed(|| C::decode_soa(&codes, data.out.borrow_mut().soa()).unwrap()))
+        .add("batch", || {
+            timed(|| C::decode_soa(&codes, data.out.borrow_mut().soa.write()).unwrap())
+        })
         .add("loop", || {
             timed(|| {
-                let Vectors { x, y, z, .. } = &mut *data.out.borrow_mut();
+                let Arrays { x, y, z } = &mut data.out.borrow_mut().soa;
                 for (((x, y), z), &code) in x.iter_mut().zip(y).zip(z).zip(&codes) {
                     [*x, *y, *z] = C::decode(code);
                 }

@@ -3,28 +3,30 @@
 //! each counts; what is said are ratios.
 //!
 //! ```text
-//! cargo run --release                        # oct16 and its peers, and the codecs beside oct
-//! cargo run --release -- --codecs            # every codec beside a loop over its function for one vector
-//! cargo run --release -- --picture oct16.svg # draws the first table as well
+//! cargo run --release -p peers                        # oct16 and its peers, and the codecs beside oct
+//! cargo run --release -p peers -- --codecs            # every codec beside a loop over its function for one vector
+//! cargo run --release -p peers -- --picture oct16.svg # draws the first table as well
 //! ```
 
 mod codecs;
-mod contest;
 mod peers;
 mod picture;
+mod timing;
 
 use std::cell::RefCell;
 use std::error::Error;
 use std::path::PathBuf;
 
-use contest::{Contest, timed};
 use half::f16;
 use half::slice::HalfFloatSliceExt;
 use lexopt::prelude::*;
+use timing::{Contest, timed};
 use unitpack::{
     Codec, CrytekBfn24, EqAreaEllipse16, Float16x3, LatLong16D, LatLong32D, Oct16, Oct24, Oct32,
-    Snorm8x3, Soa, SoaMut, Spherical16,
+    Snorm8x3, Soa, Spherical16,
 };
+use unitpack_test::Arrays;
+use unitpack_test::random::Rng;
 
 /// Vectors that stay in the cache, and vectors that do not.
 const PLACES: [(&str, usize); 2] =
@@ -69,9 +71,7 @@ struct Data {
 /// The same directions in each layout.
 #[derive(Clone)]
 struct Vectors {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    z: Vec<f32>,
+    soa: Arrays,
     aos: Vec<[f32; 3]>,
     padded: Vec<[f32; 4]>,
 }
@@ -79,31 +79,21 @@ struct Vectors {
 impl Data {
     /// Directions uniform on the sphere.
     fn new(len: usize) -> Self {
-        let mut state = 1_u64;
-        let mut random = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (state >> 40) as f32 / 16_777_216.0
-        };
-        let direction = |_| {
-            let (z, turn) = (2.0 * random() - 1.0, std::f32::consts::TAU * random());
-            let r = (1.0 - z * z).sqrt();
-            [r * turn.cos(), r * turn.sin(), z]
-        };
-        let aos: Vec<[f32; 3]> = (0..len).map(direction).collect();
-        let component = |i: usize| aos.iter().map(|v| v[i]).collect::<Vec<_>>();
-        let [x, y, z] = [0, 1, 2].map(component);
+        let mut rng = Rng::new(1);
+        let aos: Vec<[f32; 3]> = (0..len).map(|_| rng.direction()).collect();
+        let soa = Arrays::from(&aos[..]);
         let padded: Vec<_> = aos.iter().map(|&[x, y, z]| [x, y, z, 0.0]).collect();
         // Written to, so that the first turn does not pay for the pages.
-        let input = Vectors { x, y, z, aos, padded };
+        let input = Vectors { soa, aos, padded };
         Data { out: RefCell::new(input.clone()), input }
     }
 
     fn len(&self) -> usize {
-        self.input.x.len()
+        self.input.aos.len()
     }
 
     fn soa(&self) -> Soa<'_> {
-        Soa { x: &self.input.x, y: &self.input.y, z: &self.input.z }
+        self.input.soa.read()
     }
 
     fn codes<C: Codec>(&self) -> Vec<C::Code> {
@@ -114,12 +104,6 @@ impl Data {
 
     fn zeroed<C: Codec>(&self) -> Vec<C::Code> {
         vec![C::encode([0.0, 0.0, 1.0]); self.len()]
-    }
-}
-
-impl Vectors {
-    fn soa(&mut self) -> SoaMut<'_> {
-        SoaMut { x: &mut self.x, y: &mut self.y, z: &mut self.z }
     }
 }
 
@@ -135,22 +119,22 @@ fn oct16_decode(data: &Data) -> Contest<'_> {
         .add(
             "fill the three arrays",
             with(|_, out| {
-                out.x.fill(1.0);
-                out.y.fill(1.0);
-                out.z.fill(1.0);
+                out.soa.x.fill(1.0);
+                out.soa.y.fill(1.0);
+                out.soa.z.fill(1.0);
             }),
         )
         .add("copy three arrays", || {
             let out = &mut *data.out.borrow_mut();
             timed(|| {
-                out.x.copy_from_slice(&data.input.x);
-                out.y.copy_from_slice(&data.input.y);
-                out.z.copy_from_slice(&data.input.z);
+                out.soa.x.copy_from_slice(&data.input.soa.x);
+                out.soa.y.copy_from_slice(&data.input.soa.y);
+                out.soa.z.copy_from_slice(&data.input.soa.z);
             })
         })
         .add(
             "unitpack, structure of arrays",
-            with(|codes, out| Oct16::decode_soa(codes, out.soa()).unwrap()),
+            with(|codes, out| Oct16::decode_soa(codes, out.soa.write()).unwrap()),
         )
         .add(
             "unitpack, [f32; 3]",
@@ -228,7 +212,7 @@ fn halves(data: &Data) -> Contest<'_> {
     let codes = RefCell::new(data.zeroed::<Float16x3>());
     let decoded = data.codes::<Float16x3>();
     let numbers = RefCell::new([0, 1, 2].map(|_| vec![f16::ZERO; data.len()]));
-    let converted = [&data.input.x, &data.input.y, &data.input.z]
+    let converted = [&data.input.soa.x, &data.input.soa.y, &data.input.soa.z]
         .map(|c| c.iter().map(|&c| f16::from_f32(c)).collect::<Vec<_>>());
     Contest::new("f16", data.len(), "unitpack, decode float16x3")
         .add("unitpack, encode float16x3", move || {
@@ -237,21 +221,23 @@ fn halves(data: &Data) -> Contest<'_> {
         .add("half, three slices from f32", move || {
             timed(|| {
                 for (to, from) in numbers.borrow_mut().iter_mut().zip([
-                    &data.input.x,
-                    &data.input.y,
-                    &data.input.z,
+                    &data.input.soa.x,
+                    &data.input.soa.y,
+                    &data.input.soa.z,
                 ]) {
                     to.convert_from_f32_slice(from);
                 }
             })
         })
         .add("unitpack, decode float16x3", move || {
-            timed(|| Float16x3::decode_soa(&decoded, data.out.borrow_mut().soa()).unwrap())
+            timed(|| Float16x3::decode_soa(&decoded, data.out.borrow_mut().soa.write()).unwrap())
         })
         .add("half, three slices to f32", move || {
             let out = &mut *data.out.borrow_mut();
             timed(|| {
-                for (to, from) in [&mut out.x, &mut out.y, &mut out.z].into_iter().zip(&converted) {
+                for (to, from) in
+                    [&mut out.soa.x, &mut out.soa.y, &mut out.soa.z].into_iter().zip(&converted)
+                {
                     from.convert_to_f32_slice(to);
                 }
             })
@@ -263,7 +249,7 @@ fn ratios(data: &Data) {
     fn decode<'a, C: Codec>(contest: Contest<'a>, data: &'a Data) -> Contest<'a> {
         let codes = data.codes::<C>();
         contest.add(&format!("decode {}", C::FORMAT), move || {
-            timed(|| C::decode_soa(&codes, data.out.borrow_mut().soa()).unwrap())
+            timed(|| C::decode_soa(&codes, data.out.borrow_mut().soa.write()).unwrap())
         })
     }
     fn encode<'a, C: Codec>(

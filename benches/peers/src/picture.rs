@@ -5,7 +5,7 @@ use std::path::Path;
 use svg::Document;
 use svg::node::element::{Rectangle, Text};
 
-use crate::contest::Times;
+use crate::timing::Times;
 
 const LINE: f64 = 20.0;
 const WIDTH: f64 = 760.0;

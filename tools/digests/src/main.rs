@@ -6,6 +6,10 @@
 #![no_std]
 #![no_main]
 
+// On x86 alone the library needs it.
+#[cfg(feature = "std")]
+extern crate std;
+
 mod building_blocks;
 mod codecs;
 mod digest;

@@ -10,6 +10,8 @@ use unitpack::quaternion::{
     QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
 };
 use unitpack::{Codec, Format, LengthMismatch, Oct16, Soa, SoaMut, SphericalFibonacci, Visitor};
+use unitpack_test::Arrays;
+use unitpack_test::vectors::golden_spiral;
 
 /// Vectors in a batch: whole blocks, and a few more.
 const LEN: usize = 512 + 5;
@@ -17,11 +19,11 @@ const LEN: usize = 512 + 5;
 const FEW: usize = 32 + 5;
 
 fn main() {
-    let [x, y, z] = directions();
+    let directions: Arrays = golden_spiral(LEN).collect();
+    let v = directions.read();
     for format in Format::ALL {
-        format.visit(Count { x: &x, y: &y, z: &z });
+        format.visit(Count(v));
     }
-    let v = Soa { x: &x, y: &y, z: &z };
     frames::<OctAngle32>(v);
     frames::<OctAngle64>(v);
     frames::<QTangent64>(v);
@@ -33,17 +35,13 @@ fn main() {
     dither::<Oct16>(v);
 }
 
-struct Count<'a> {
-    x: &'a [f32],
-    y: &'a [f32],
-    z: &'a [f32],
-}
+struct Count<'a>(Soa<'a>);
 
 impl Visitor for Count<'_> {
     type Output = ();
 
     fn visit<C: Codec>(self) {
-        let Count { x, y, z } = self;
+        let Count(Soa { x, y, z }) = self;
         let mut codes = [C::encode([0.0, 0.0, 1.0]); LEN];
         let [mut to_x, mut to_y, mut to_z] = [[0.0; LEN]; 3];
         let name = C::FORMAT.name();
@@ -122,18 +120,4 @@ fn count(name: &str, what: &str, len: usize, job: &mut dyn FnMut() -> Result<(),
 #[inline(never)]
 fn measured(job: &mut dyn FnMut() -> Result<(), LengthMismatch>) {
     job().unwrap();
-}
-
-/// Spread evenly, by the golden angle.
-fn directions() -> [[f32; LEN]; 3] {
-    let mut vectors = [[0.0; LEN]; 3];
-    for i in 0..LEN {
-        let z = 1.0 - (2 * i + 1) as f32 / LEN as f32;
-        let (sin, cos) = (2.399_963_3 * i as f32).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        for (to, c) in vectors.iter_mut().zip([r * cos, r * sin, z]) {
-            to[i] = c;
-        }
-    }
-    vectors
 }

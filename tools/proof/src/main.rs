@@ -1,9 +1,6 @@
 //! Long proofs of what unitpack promises, one command each.
 
 mod codes;
-#[allow(dead_code)] // The tests use the rest.
-#[path = "../../../tests/common/mod.rs"]
-mod common;
 mod nearest;
 
 use std::error::Error;

@@ -19,8 +19,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use lexopt::prelude::*;
 use unitpack::Format;
 
-use crate::common::oracle::{Oracle, chord_squared, oracle};
-use crate::common::{Rng, decode, encode, encode_precise, widen};
+use unitpack_test::codes::{decode, encode, encode_precise};
+use unitpack_test::oracle::{Oracle, oracle};
+use unitpack_test::random::Rng;
+use unitpack_test::vectors::{chord_squared, widen};
+
 use all_codes::{Best, Entry, Reaches};
 use lengths::Lengths;
 
@@ -178,7 +181,7 @@ struct Chords {
 }
 
 fn examine(format: Format, options: &Options) -> Found {
-    let oracle = oracle(format.name()).unwrap();
+    let oracle = oracle(format.name());
     let directions = Directions::new(format, &oracle, options);
     let lengths = Lengths::of(format);
     let windows = options.windows && format.bits() > 24;

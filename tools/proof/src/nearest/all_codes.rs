@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use unitpack::{Format, SoaMut};
 
-use crate::common::oracle::{Oracle, chord_squared};
-use crate::common::widen;
+use unitpack_test::oracle::Oracle;
+use unitpack_test::vectors::{chord_squared, widen};
 
-/// Radians by which the crate's decoder may be off (4e-7 in `tests/reference.rs`), and the map.
+/// Radians by which the crate's decoder may be off (4e-7 in `tests/it/oracle_agrees.rs`), and the map.
 const DECODE_ERROR: f64 = 2e-6;
 /// Cells along the octahedral map's sides, at most: 2^27 in all.
 const MOST_CELLS: f64 = 8192.0;
@@ -301,13 +301,14 @@ fn within(cell: u32, least: u32, greatest: u32) -> [u32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::oracle::oracle;
-    use crate::common::{encode, mixed_vectors};
+    use unitpack_test::codes::encode;
+    use unitpack_test::oracle::oracle;
+    use unitpack_test::random::mixed_vectors;
 
     #[test]
     fn nothing_nearer_is_missed() {
         for name in ["oct10", "angularcube5", "snorm5x3", "XYOnly16", "eqarea16", "latlong16D"] {
-            let (format, oracle) = (name.parse::<Format>().unwrap(), oracle(name).unwrap());
+            let (format, oracle) = (name.parse::<Format>().unwrap(), oracle(name));
             let targets: Vec<_> =
                 mixed_vectors(1, 10_000).iter().step_by(20).map(|v| oracle.target(*v)).collect();
             let inputs: Vec<_> = targets.iter().map(|v| v.map(|c| c as f32)).collect();

@@ -3,7 +3,8 @@
 
 use unitpack::Format;
 
-use crate::common::oracle::{Oracle, chord_squared};
+use unitpack_test::oracle::Oracle;
+use unitpack_test::vectors::chord_squared;
 
 /// The values that a component may have, times a constant.
 trait Grid: Sync {
@@ -183,13 +184,14 @@ fn search<G: Grid>(lengths: &[f64], oracle: &Oracle, target: [f64; 3], chosen: f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::common::oracle::oracle;
-    use crate::common::{encode, mixed_vectors};
+    use unitpack_test::codes::encode;
+    use unitpack_test::oracle::oracle;
+    use unitpack_test::random::mixed_vectors;
 
     #[test]
     fn nothing_nearer_is_missed() {
         for format in [Format::Snorm16x3, Format::XyzUnorm16x3, Format::Float16x3] {
-            let oracle = oracle(format.name()).unwrap();
+            let oracle = oracle(format.name());
             let lengths = Lengths::of(format).unwrap();
             let vectors = mixed_vectors(1, 10_000).split_off(9_800);
             for (v, code) in vectors.iter().zip(encode(format, &vectors)) {

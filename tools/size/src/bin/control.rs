@@ -1,8 +1,7 @@
 //! A codec with a large table, and more code: over both bounds on purpose.
-#![no_std]
-#![no_main]
+#![cfg_attr(target_os = "none", no_std, no_main)]
 
-#[cortex_m_rt::entry]
+#[cfg_attr(target_os = "none", cortex_m_rt::entry)]
 fn main() -> ! {
     loop {
         size::singles::<unitpack::LatLong24D>();

@@ -1,10 +1,9 @@
 //! Starts, and does nothing.
-#![no_std]
-#![no_main]
+#![cfg_attr(target_os = "none", no_std, no_main)]
 
 use size as _;
 
-#[cortex_m_rt::entry]
+#[cfg_attr(target_os = "none", cortex_m_rt::entry)]
 fn main() -> ! {
     loop {
         core::hint::spin_loop();

@@ -1,8 +1,7 @@
 //! Encodes, encodes precisely and decodes one `Oct16`.
-#![no_std]
-#![no_main]
+#![cfg_attr(target_os = "none", no_std, no_main)]
 
-#[cortex_m_rt::entry]
+#[cfg_attr(target_os = "none", cortex_m_rt::entry)]
 fn main() -> ! {
     loop {
         size::singles::<unitpack::Oct16>();
