@@ -261,6 +261,7 @@ pub trait SignSymmetric: Codec {
 }
 
 /// A code's vector, from a table of its octant.
+#[derive(Clone, Copy)]
 struct Mirrored<'t, F>(F, &'t [[f32; 3]]);
 
 impl<F: Symmetric> Mirrored<'_, F> {
@@ -277,7 +278,7 @@ impl<F: Symmetric> Kernel<CodeColumn<Words>, Columns<3>> for Mirrored<'_, F> {
     const USE_AVX512: bool = false;
 
     #[inline(always)]
-    fn run<V: Simd>(&self, code: V::Int) -> [V; 3] {
+    fn run<V: Simd>(self, code: V::Int) -> [V; 3] {
         self.decode::<V>(code).to_array()
     }
 }

@@ -224,7 +224,7 @@ impl Dither {
         let mut buffer = [[0.0; PART]; 3];
         let mut turned = [[0.0; PART]; 3];
         let mut done = 0;
-        for codes in codes.parts() {
+        for codes in codes.parts(PART) {
             let len = codes.len();
             let numbers = Indices { first: self.index(first).wrapping_add(done as u32), len };
             if let Some(turned) = columns_mut(&mut turned, len) {
@@ -293,11 +293,12 @@ impl Rotation {
 /// Vectors, and their numbers.
 type Numbered = (Columns<3>, Indices);
 
+#[derive(Clone, Copy)]
 struct Turn(Rotation);
 
 impl Kernel<Numbered, Columns<3>> for Turn {
     #[inline(always)]
-    fn run<V: Simd>(&self, (v, number): ([V; 3], V::Int)) -> [V; 3] {
+    fn run<V: Simd>(self, (v, number): ([V; 3], V::Int)) -> [V; 3] {
         self.0.turn(Vec3::from(v), number).to_array()
     }
 }
@@ -329,11 +330,12 @@ fn encode_stochastic<F: Lattice, V: Simd>(formula: F, v: Vec3<V>, number: V::Int
     formula.encode_stochastic(formula.prepare(v), t)
 }
 
+#[derive(Clone, Copy)]
 struct Stochastic<F>(F);
 
 impl<F: Lattice> Kernel<Numbered, CodeColumn<Words>> for Stochastic<F> {
     #[inline(always)]
-    fn run<V: Simd>(&self, (v, number): ([V; 3], V::Int)) -> V::Int {
+    fn run<V: Simd>(self, (v, number): ([V; 3], V::Int)) -> V::Int {
         encode_stochastic(self.0, Vec3::from(v), number)
     }
 }
@@ -357,7 +359,7 @@ fn encode_numbered(
 ) {
     let mut buffer = [[0.0; PART]; 3];
     let mut done = 0;
-    for codes in codes.parts() {
+    for codes in codes.parts(PART) {
         let len = codes.len();
         let numbers = Indices { first: first.wrapping_add(done as u32), len };
         kernel((vectors.part(done, len, &mut buffer), numbers), codes);

@@ -92,7 +92,7 @@ impl<const BITS: u32> Angle<BITS> {
     /// Zero and NaN encode as +X, an infinite component as the limit direction.
     #[inline]
     pub fn encode(v: [f32; 2]) -> u32 {
-        Encode(Self::CIRCLE).run::<f32>(v).0 as u32
+        Encode(Self::CIRCLE).nearest::<f32>(v).0 as u32
     }
 
     /// The vector of a code, each component with error below 1.2e-7 and its length 1 to 2.5e-7. Bits
@@ -142,12 +142,14 @@ impl<const BITS: u32> Angle<BITS> {
     }
 }
 
+#[derive(Clone, Copy)]
 struct Encode(Circle);
+#[derive(Clone, Copy)]
 struct Decode(Circle);
 
 impl Encode {
     #[inline(always)]
-    fn run<V: Simd>(&self, [x, y]: [V; 2]) -> V::Int {
+    fn nearest<V: Simd>(self, [x, y]: [V; 2]) -> V::Int {
         // What is no direction becomes (0, 0, 1), and (0, 0) has the angle 0.
         let v = sanitize(Vec3::new(x, y, V::splat(0.0)));
         self.0.nearest([v.x, v.y])
@@ -156,14 +158,14 @@ impl Encode {
 
 impl Kernel<Columns<2>, CodeColumn<Words>> for Encode {
     #[inline(always)]
-    fn run<V: Simd>(&self, v: [V; 2]) -> V::Int {
-        Encode::run(self, v)
+    fn run<V: Simd>(self, v: [V; 2]) -> V::Int {
+        self.nearest(v)
     }
 }
 
 impl Kernel<CodeColumn<Words>, Columns<2>> for Decode {
     #[inline(always)]
-    fn run<V: Simd>(&self, code: V::Int) -> [V; 2] {
+    fn run<V: Simd>(self, code: V::Int) -> [V; 2] {
         self.0.direction::<V>(code)
     }
 }

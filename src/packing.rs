@@ -91,7 +91,9 @@ pub fn unpack_snorm12x2_slice(
     Ok(())
 }
 
+#[derive(Clone, Copy)]
 struct PackSnorm12x2;
+#[derive(Clone, Copy)]
 struct UnpackSnorm12x2;
 
 impl PackSnorm12x2 {
@@ -112,14 +114,14 @@ impl UnpackSnorm12x2 {
 
 impl Kernel<Rows<2, 2>, CodeColumn<[u8; 3]>> for PackSnorm12x2 {
     #[inline(always)]
-    fn run<V: Simd>(&self, pair: [V; 2]) -> V::Int {
+    fn run<V: Simd>(self, pair: [V; 2]) -> V::Int {
         self.pack(pair)
     }
 }
 
 impl Kernel<CodeColumn<[u8; 3]>, Rows<2, 2>> for UnpackSnorm12x2 {
     #[inline(always)]
-    fn run<V: Simd>(&self, code: V::Int) -> [V; 2] {
+    fn run<V: Simd>(self, code: V::Int) -> [V; 2] {
         self.unpack::<V>(code)
     }
 }

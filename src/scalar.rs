@@ -90,20 +90,22 @@ pub(crate) trait Grid: Copy + Send + Sync + 'static {
 }
 
 /// [`Scalar::encode`], of which the low bits count.
+#[derive(Clone, Copy)]
 struct Encode<G>(G, u32);
 /// [`Scalar::decode`].
+#[derive(Clone, Copy)]
 struct Decode<G>(G);
 
 impl<G: Grid> Kernel<Columns<1>, CodeColumn<Words>> for Encode<G> {
     #[inline(always)]
-    fn run<V: Simd>(&self, [x]: [V; 1]) -> V::Int {
+    fn run<V: Simd>(self, [x]: [V; 1]) -> V::Int {
         self.0.nearest(x).low_bits(self.1)
     }
 }
 
 impl<G: Grid> Kernel<CodeColumn<Words>, Columns<1>> for Decode<G> {
     #[inline(always)]
-    fn run<V: Simd>(&self, code: V::Int) -> [V; 1] {
+    fn run<V: Simd>(self, code: V::Int) -> [V; 1] {
         [self.0.value::<V>(code)]
     }
 }

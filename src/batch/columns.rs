@@ -1,7 +1,6 @@
-//! What a loop reads and writes, a block at a time.
+//! What a loop reads and writes: kinds of slices, of which it takes a block at a time.
 
 use core::marker::PhantomData;
-use core::slice;
 
 use super::storage::{CodeKind, CodeSlice, CodeSliceMut, MAX_CODE, ShapeIn, copy};
 use crate::simd::{MAX_LANES, Simd};
@@ -12,21 +11,23 @@ pub(crate) trait Input: 'static {
     type Slices<'a>: Copy;
     /// Whole blocks of them.
     type Blocks<'a, V: Simd>: Copy;
-    /// One block of its own.
-    type Block<V: Simd>;
+    /// Room for one block.
+    type Buffer;
     /// One block in lanes.
     type In<V: Simd>: Copy;
 
     fn len(slices: Self::Slices<'_>) -> usize;
-    /// The whole blocks, of which there are `count`, and the rest. `None` if lengths differ.
-    fn split<'a, V: Simd>(
+    /// The first `at` elements, and the others. `None` if there are fewer.
+    fn split<'a>(
         slices: Self::Slices<'a>,
-        count: usize,
-    ) -> Option<(Self::Blocks<'a, V>, Self::Slices<'a>)>;
-    /// A block that begins with the elements, fewer than that, and repeats the first of them. `None`
-    /// without any.
-    fn pad<V: Simd>(rest: Self::Slices<'_>) -> Option<Self::Block<V>>;
-    fn as_blocks<V: Simd>(block: &Self::Block<V>) -> Self::Blocks<'_, V>;
+        at: usize,
+    ) -> Option<(Self::Slices<'a>, Self::Slices<'a>)>;
+    /// The elements, repeated until the buffer is full.
+    fn pad(slices: Self::Slices<'_>) -> Self::Buffer;
+    /// The first `len` elements of a buffer.
+    fn slices(buffer: &Self::Buffer, len: usize) -> Option<Self::Slices<'_>>;
+    /// The slices as `count` blocks: then the compiler knows that indices below it are in bounds.
+    fn blocks<'a, V: Simd>(slices: Self::Slices<'a>, count: usize) -> Option<Self::Blocks<'a, V>>;
     /// Block `i`.
     fn load<V: Simd>(blocks: Self::Blocks<'_, V>, i: usize) -> Option<Self::In<V>>;
 }
@@ -37,21 +38,24 @@ pub(crate) trait Output: 'static {
     type Slices<'a>;
     /// Whole blocks of them.
     type Blocks<'a, V: Simd>;
-    /// One block of its own.
-    type Block<V: Simd>;
+    /// Room for one block.
+    type Buffer;
     /// One block in lanes.
     type In<V: Simd>;
 
-    /// The whole blocks, of which there are `count`, and the rest. `None` if lengths differ.
-    fn split<'a, V: Simd>(
+    /// The first `at` elements, and the others. `None` if there are fewer.
+    fn split<'a>(
         slices: Self::Slices<'a>,
-        count: usize,
-    ) -> Option<(Self::Blocks<'a, V>, Self::Slices<'a>)>;
-    /// A block with room for the elements, fewer than that. It holds what they keep.
-    fn pad<V: Simd>(rest: &Self::Slices<'_>) -> Self::Block<V>;
-    fn as_blocks<V: Simd>(block: &mut Self::Block<V>) -> Self::Blocks<'_, V>;
-    /// Copies the first elements of a block to `rest`.
-    fn cut<V: Simd>(block: &Self::Block<V>, rest: Self::Slices<'_>);
+        at: usize,
+    ) -> Option<(Self::Slices<'a>, Self::Slices<'a>)>;
+    /// A buffer that begins with the elements, if those keep anything.
+    fn pad(slices: &Self::Slices<'_>) -> Self::Buffer;
+    /// The first `len` elements of a buffer.
+    fn slices(buffer: &mut Self::Buffer, len: usize) -> Option<Self::Slices<'_>>;
+    /// Copies the first elements of a buffer.
+    fn cut(buffer: &Self::Buffer, slices: Self::Slices<'_>);
+    /// The slices as `count` blocks: then the compiler knows that indices below it are in bounds.
+    fn blocks<'a, V: Simd>(slices: Self::Slices<'a>, count: usize) -> Option<Self::Blocks<'a, V>>;
     /// Writes block `i`, past the caches if `streams`.
     fn store<V: Simd>(
         blocks: &mut Self::Blocks<'_, V>,
@@ -61,30 +65,22 @@ pub(crate) trait Output: 'static {
     );
 }
 
-/// `blocks`, if there are `count`. Then the compiler knows that indices below it are in bounds.
-fn counted<B>(blocks: &[B], count: usize) -> Option<&[B]> {
-    if blocks.len() == count { Some(blocks) } else { None }
+/// A slice as `count` blocks.
+#[inline(always)]
+pub(super) fn blocks<V: Simd, T: Copy + 'static>(
+    slice: &[T],
+    count: usize,
+) -> Option<&[V::Block<T>]> {
+    V::split(slice).0.get(..count)
 }
 
-/// [`counted`] to write.
-fn counted_mut<B>(blocks: &mut [B], count: usize) -> Option<&mut [B]> {
-    if blocks.len() == count { Some(blocks) } else { None }
-}
-
-/// A block that begins with `rest`, and otherwise repeats its first element.
-fn padded<V: Simd, T: Copy + 'static>(rest: &[T]) -> Option<V::Block<T>> {
-    let mut block = V::fill(*rest.first()?);
-    for (to, from) in V::elements_mut(&mut block).iter_mut().zip(rest) {
-        *to = *from;
-    }
-    Some(block)
-}
-
-/// The first elements of a block.
-fn cut<V: Simd, T: Copy + 'static>(block: &V::Block<T>, rest: &mut [T]) {
-    for (to, from) in rest.iter_mut().zip(V::elements(block)) {
-        *to = *from;
-    }
+/// A slice as `count` blocks.
+#[inline(always)]
+pub(super) fn blocks_mut<V: Simd, T: Copy + 'static>(
+    slice: &mut [T],
+    count: usize,
+) -> Option<&mut [V::Block<T>]> {
+    V::split_mut(slice).0.get_mut(..count)
 }
 
 /// `K` components of vectors, a slice each.
@@ -93,32 +89,46 @@ pub(crate) struct Columns<const K: usize>;
 impl<const K: usize> Input for Columns<K> {
     type Slices<'a> = [&'a [f32]; K];
     type Blocks<'a, V: Simd> = [&'a [V::Block<f32>]; K];
-    type Block<V: Simd> = [V::Block<f32>; K];
+    type Buffer = [[f32; MAX_LANES]; K];
     type In<V: Simd> = [V; K];
 
     fn len(slices: [&[f32]; K]) -> usize {
         slices.first().map_or(0, |column| column.len())
     }
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        slices: <Self as Input>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
+        let (mut first, mut others) = ([&[][..]; K], [&[][..]; K]);
+        for ((column, first), others) in slices.into_iter().zip(&mut first).zip(&mut others) {
+            (*first, *others) = column.split_at_checked(at)?;
+        }
+        Some((first, others))
+    }
+    fn pad(slices: [&[f32]; K]) -> [[f32; MAX_LANES]; K] {
+        let mut buffer = [[0.0; MAX_LANES]; K];
+        for (to, from) in buffer.iter_mut().zip(slices) {
+            repeat(from, to);
+        }
+        buffer
+    }
+    fn slices(buffer: &[[f32; MAX_LANES]; K], len: usize) -> Option<[&[f32]; K]> {
+        let mut slices = [&[][..]; K];
+        for (slice, column) in slices.iter_mut().zip(buffer) {
+            *slice = column.get(..len)?;
+        }
+        Some(slices)
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         slices: <Self as Input>::Slices<'a>,
         count: usize,
-    ) -> Option<(<Self as Input>::Blocks<'a, V>, <Self as Input>::Slices<'a>)> {
-        let (mut all, mut rests) = ([&[][..]; K], [&[][..]; K]);
-        for ((column, all), rest) in slices.into_iter().zip(&mut all).zip(&mut rests) {
-            let (blocks, others) = V::split(column);
-            (*all, *rest) = (counted(blocks, count)?, others);
+    ) -> Option<<Self as Input>::Blocks<'a, V>> {
+        let mut all = [&[][..]; K];
+        for (all, column) in all.iter_mut().zip(slices) {
+            *all = blocks::<V, f32>(column, count)?;
         }
-        Some((all, rests))
-    }
-    fn pad<V: Simd>(rest: [&[f32]; K]) -> Option<[V::Block<f32>; K]> {
-        let mut blocks = [V::fill(0.0); K];
-        for (block, rest) in blocks.iter_mut().zip(rest) {
-            *block = padded::<V, f32>(rest)?;
-        }
-        Some(blocks)
-    }
-    fn as_blocks<V: Simd>(block: &[V::Block<f32>; K]) -> [&[V::Block<f32>]; K] {
-        block.each_ref().map(slice::from_ref)
+        Some(all)
     }
     #[inline(always)]
     fn load<V: Simd>(blocks: [&[V::Block<f32>]; K], i: usize) -> Option<[V; K]> {
@@ -133,31 +143,44 @@ impl<const K: usize> Input for Columns<K> {
 impl<const K: usize> Output for Columns<K> {
     type Slices<'a> = [&'a mut [f32]; K];
     type Blocks<'a, V: Simd> = [&'a mut [V::Block<f32>]; K];
-    type Block<V: Simd> = [V::Block<f32>; K];
+    type Buffer = [[f32; MAX_LANES]; K];
     type In<V: Simd> = [V; K];
 
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        slices: <Self as Output>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Output>::Slices<'a>, <Self as Output>::Slices<'a>)> {
+        let (mut first, mut others) = (empty(), empty());
+        for ((column, first), others) in slices.into_iter().zip(&mut first).zip(&mut others) {
+            (*first, *others) = column.split_at_mut_checked(at)?;
+        }
+        Some((first, others))
+    }
+    fn pad(_: &[&mut [f32]; K]) -> [[f32; MAX_LANES]; K] {
+        [[0.0; MAX_LANES]; K]
+    }
+    fn slices(buffer: &mut [[f32; MAX_LANES]; K], len: usize) -> Option<[&mut [f32]; K]> {
+        let mut slices = empty();
+        for (slice, column) in slices.iter_mut().zip(buffer) {
+            *slice = column.get_mut(..len)?;
+        }
+        Some(slices)
+    }
+    fn cut(buffer: &[[f32; MAX_LANES]; K], slices: [&mut [f32]; K]) {
+        for (from, to) in buffer.iter().zip(slices) {
+            copy(from, to);
+        }
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         slices: <Self as Output>::Slices<'a>,
         count: usize,
-    ) -> Option<(<Self as Output>::Blocks<'a, V>, <Self as Output>::Slices<'a>)> {
+    ) -> Option<<Self as Output>::Blocks<'a, V>> {
         let mut all = [(); K].map(|()| &mut [][..]);
-        let mut rests = [(); K].map(|()| &mut [][..]);
-        for ((column, all), rest) in slices.into_iter().zip(&mut all).zip(&mut rests) {
-            let (blocks, others) = V::split_mut(column);
-            (*all, *rest) = (counted_mut(blocks, count)?, others);
+        for (all, column) in all.iter_mut().zip(slices) {
+            *all = blocks_mut::<V, f32>(column, count)?;
         }
-        Some((all, rests))
-    }
-    fn pad<V: Simd>(_: &[&mut [f32]; K]) -> [V::Block<f32>; K] {
-        [V::fill(0.0); K]
-    }
-    fn as_blocks<V: Simd>(block: &mut [V::Block<f32>; K]) -> [&mut [V::Block<f32>]; K] {
-        block.each_mut().map(slice::from_mut)
-    }
-    fn cut<V: Simd>(block: &[V::Block<f32>; K], rest: [&mut [f32]; K]) {
-        for (block, rest) in block.iter().zip(rest) {
-            cut::<V, f32>(block, rest);
-        }
+        Some(all)
     }
     #[inline(always)]
     fn store<V: Simd>(
@@ -177,79 +200,91 @@ impl<const K: usize> Output for Columns<K> {
     }
 }
 
+/// Columns without elements.
+pub(crate) fn empty<'a, const K: usize>() -> [&'a mut [f32]; K] {
+    [(); K].map(|()| &mut [][..])
+}
+
 /// Codes in a slice of bytes.
 pub(crate) struct CodeColumn<K>(PhantomData<K>);
 
-/// A block of codes of its own.
-pub(crate) struct CodeBlock {
+/// Room for a block of codes.
+pub(crate) struct CodeBuffer {
     bytes: [u8; MAX_CODE * MAX_LANES],
     size: usize,
 }
 
-impl CodeBlock {
-    fn new(size: usize) -> Self {
-        CodeBlock { bytes: [0; MAX_CODE * MAX_LANES], size }
-    }
-}
-
 impl<K: CodeKind> Input for CodeColumn<K> {
     type Slices<'a> = CodeSlice<'a>;
-    type Blocks<'a, V: Simd> = CodeSlice<'a>;
-    type Block<V: Simd> = CodeBlock;
+    type Blocks<'a, V: Simd> = K::Blocks<'a, V>;
+    type Buffer = CodeBuffer;
     type In<V: Simd> = ShapeIn<K::Shape, V>;
 
     fn len(codes: CodeSlice<'_>) -> usize {
-        codes.bytes.len().checked_div(codes.size).unwrap_or(0)
+        codes.len()
     }
-    fn split<'a, V: Simd>(
+    fn split<'a>(
         codes: <Self as Input>::Slices<'a>,
-        count: usize,
-    ) -> Option<(<Self as Input>::Blocks<'a, V>, <Self as Input>::Slices<'a>)> {
-        let (blocks, rest) = codes.bytes.split_at_checked(count * V::LANES * codes.size)?;
-        Some((CodeSlice { bytes: blocks, ..codes }, CodeSlice { bytes: rest, ..codes }))
+        at: usize,
+    ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
+        codes.split_at(at)
     }
-    fn pad<V: Simd>(rest: CodeSlice<'_>) -> Option<CodeBlock> {
-        let mut block = CodeBlock::new(rest.size);
-        for (to, from) in block.bytes.chunks_mut(rest.size).zip(rest.bytes.chunks(rest.size)) {
-            copy(from, to);
-        }
-        Some(block)
+    fn pad(codes: CodeSlice<'_>) -> CodeBuffer {
+        let mut buffer = CodeBuffer { bytes: [0; MAX_CODE * MAX_LANES], size: codes.size };
+        repeat(codes.bytes, &mut buffer.bytes);
+        buffer
     }
-    fn as_blocks<V: Simd>(block: &CodeBlock) -> CodeSlice<'_> {
-        CodeSlice { bytes: &block.bytes, size: block.size }
+    fn slices(buffer: &CodeBuffer, len: usize) -> Option<CodeSlice<'_>> {
+        let CodeBuffer { ref bytes, size } = *buffer;
+        Some(CodeSlice { bytes: bytes.get(..len * size)?, size })
     }
     #[inline(always)]
-    fn load<V: Simd>(blocks: CodeSlice<'_>, i: usize) -> Option<ShapeIn<K::Shape, V>> {
+    fn blocks<'a, V: Simd>(
+        codes: <Self as Input>::Slices<'a>,
+        count: usize,
+    ) -> Option<<Self as Input>::Blocks<'a, V>> {
+        K::blocks::<V>(codes, count)
+    }
+    #[inline(always)]
+    fn load<V: Simd>(blocks: K::Blocks<'_, V>, i: usize) -> Option<ShapeIn<K::Shape, V>> {
         K::load::<V>(blocks, i)
     }
 }
 
 impl<K: CodeKind> Output for CodeColumn<K> {
     type Slices<'a> = CodeSliceMut<'a>;
-    type Blocks<'a, V: Simd> = CodeSliceMut<'a>;
-    type Block<V: Simd> = CodeBlock;
+    type Blocks<'a, V: Simd> = K::BlocksMut<'a, V>;
+    type Buffer = CodeBuffer;
     type In<V: Simd> = ShapeIn<K::Shape, V>;
 
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        codes: <Self as Output>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Output>::Slices<'a>, <Self as Output>::Slices<'a>)> {
+        let CodeSliceMut { bytes, size } = codes;
+        let (first, others) = bytes.split_at_mut_checked(at * size)?;
+        Some((CodeSliceMut { bytes: first, size }, CodeSliceMut { bytes: others, size }))
+    }
+    fn pad(codes: &CodeSliceMut<'_>) -> CodeBuffer {
+        CodeBuffer { bytes: [0; MAX_CODE * MAX_LANES], size: codes.size }
+    }
+    fn slices(buffer: &mut CodeBuffer, len: usize) -> Option<CodeSliceMut<'_>> {
+        let CodeBuffer { ref mut bytes, size } = *buffer;
+        Some(CodeSliceMut { bytes: bytes.get_mut(..len * size)?, size })
+    }
+    fn cut(buffer: &CodeBuffer, codes: CodeSliceMut<'_>) {
+        copy(&buffer.bytes, codes.bytes);
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         codes: <Self as Output>::Slices<'a>,
         count: usize,
-    ) -> Option<(<Self as Output>::Blocks<'a, V>, <Self as Output>::Slices<'a>)> {
-        let CodeSliceMut { bytes, size } = codes;
-        let (blocks, rest) = bytes.split_at_mut_checked(count * V::LANES * size)?;
-        Some((CodeSliceMut { bytes: blocks, size }, CodeSliceMut { bytes: rest, size }))
-    }
-    fn pad<V: Simd>(rest: &CodeSliceMut<'_>) -> CodeBlock {
-        CodeBlock::new(rest.size)
-    }
-    fn as_blocks<V: Simd>(block: &mut CodeBlock) -> CodeSliceMut<'_> {
-        CodeSliceMut { bytes: &mut block.bytes, size: block.size }
-    }
-    fn cut<V: Simd>(block: &CodeBlock, rest: CodeSliceMut<'_>) {
-        copy(&block.bytes, rest.bytes);
+    ) -> Option<<Self as Output>::Blocks<'a, V>> {
+        K::blocks_mut::<V>(codes, count)
     }
     #[inline(always)]
     fn store<V: Simd>(
-        blocks: &mut CodeSliceMut<'_>,
+        blocks: &mut K::BlocksMut<'_, V>,
         i: usize,
         code: ShapeIn<K::Shape, V>,
         _: bool,
@@ -268,24 +303,32 @@ type Row<const N: usize> = [[u8; 4]; N];
 impl<const N: usize, const C: usize> Input for Rows<N, C> {
     type Slices<'a> = &'a [Row<N>];
     type Blocks<'a, V: Simd> = &'a [V::Block<Row<N>>];
-    type Block<V: Simd> = V::Block<Row<N>>;
+    type Buffer = [Row<N>; MAX_LANES];
     type In<V: Simd> = [V; C];
 
     fn len(rows: &[Row<N>]) -> usize {
         rows.len()
     }
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        rows: <Self as Input>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
+        rows.split_at_checked(at)
+    }
+    fn pad(rows: &[Row<N>]) -> [Row<N>; MAX_LANES] {
+        let mut buffer = [[[0; 4]; N]; MAX_LANES];
+        repeat(rows, &mut buffer);
+        buffer
+    }
+    fn slices(buffer: &[Row<N>; MAX_LANES], len: usize) -> Option<&[Row<N>]> {
+        buffer.get(..len)
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         rows: <Self as Input>::Slices<'a>,
         count: usize,
-    ) -> Option<(<Self as Input>::Blocks<'a, V>, <Self as Input>::Slices<'a>)> {
-        let (blocks, rest) = V::split(rows);
-        Some((counted(blocks, count)?, rest))
-    }
-    fn pad<V: Simd>(rest: &[Row<N>]) -> Option<V::Block<Row<N>>> {
-        padded::<V, _>(rest)
-    }
-    fn as_blocks<V: Simd>(block: &V::Block<Row<N>>) -> &[V::Block<Row<N>>] {
-        slice::from_ref(block)
+    ) -> Option<<Self as Input>::Blocks<'a, V>> {
+        blocks::<V, _>(rows, count)
     }
     #[inline(always)]
     fn load<V: Simd>(blocks: &[V::Block<Row<N>>], i: usize) -> Option<[V; C]> {
@@ -296,30 +339,153 @@ impl<const N: usize, const C: usize> Input for Rows<N, C> {
 impl<const N: usize, const C: usize> Output for Rows<N, C> {
     type Slices<'a> = &'a mut [Row<N>];
     type Blocks<'a, V: Simd> = &'a mut [V::Block<Row<N>>];
-    type Block<V: Simd> = V::Block<Row<N>>;
+    type Buffer = [Row<N>; MAX_LANES];
     type In<V: Simd> = [V; C];
 
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        rows: <Self as Output>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Output>::Slices<'a>, <Self as Output>::Slices<'a>)> {
+        rows.split_at_mut_checked(at)
+    }
+    fn pad(rows: &&mut [Row<N>]) -> [Row<N>; MAX_LANES] {
+        <Self as Input>::pad(rows)
+    }
+    fn slices(buffer: &mut [Row<N>; MAX_LANES], len: usize) -> Option<&mut [Row<N>]> {
+        buffer.get_mut(..len)
+    }
+    fn cut(buffer: &[Row<N>; MAX_LANES], rows: &mut [Row<N>]) {
+        copy(buffer, rows);
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         rows: <Self as Output>::Slices<'a>,
         count: usize,
-    ) -> Option<(<Self as Output>::Blocks<'a, V>, <Self as Output>::Slices<'a>)> {
-        let (blocks, rest) = V::split_mut(rows);
-        Some((counted_mut(blocks, count)?, rest))
-    }
-    fn pad<V: Simd>(rest: &&mut [Row<N>]) -> V::Block<Row<N>> {
-        padded::<V, _>(rest).unwrap_or(V::fill([[0; 4]; N]))
-    }
-    fn as_blocks<V: Simd>(block: &mut V::Block<Row<N>>) -> &mut [V::Block<Row<N>>] {
-        slice::from_mut(block)
-    }
-    fn cut<V: Simd>(block: &V::Block<Row<N>>, rest: &mut [Row<N>]) {
-        cut::<V, _>(block, rest);
+    ) -> Option<<Self as Output>::Blocks<'a, V>> {
+        blocks_mut::<V, _>(rows, count)
     }
     #[inline(always)]
     fn store<V: Simd>(blocks: &mut &mut [V::Block<Row<N>>], i: usize, value: [V; C], _: bool) {
         if let Some(block) = blocks.get_mut(i) {
             V::store_rows(value, block);
         }
+    }
+}
+
+/// Rows of `C` floats in native byte order, one every `stride` bytes, at least [`QUAD`]. What lies
+/// between keeps what it holds.
+pub(crate) struct Strided<const C: usize>;
+
+/// Size in bytes of what is loaded or stored of a row at once.
+const QUAD: usize = 16;
+
+/// Whole rows.
+#[derive(Clone, Copy)]
+pub(crate) struct RowSlice<'a> {
+    pub(crate) bytes: &'a [u8],
+    pub(crate) stride: usize,
+}
+
+/// [`RowSlice`] to write.
+pub(crate) struct RowSliceMut<'a> {
+    pub(crate) bytes: &'a mut [u8],
+    pub(crate) stride: usize,
+}
+
+impl<const C: usize> Input for Strided<C> {
+    type Slices<'a> = RowSlice<'a>;
+    type Blocks<'a, V: Simd> = RowSlice<'a>;
+    type Buffer = [u8; QUAD * MAX_LANES];
+    type In<V: Simd> = [V; C];
+
+    fn len(rows: RowSlice<'_>) -> usize {
+        rows.bytes.len().checked_div(rows.stride).unwrap_or(0)
+    }
+    fn split<'a>(
+        rows: <Self as Input>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
+        let (first, others) = rows.bytes.split_at_checked(at * rows.stride)?;
+        Some((RowSlice { bytes: first, ..rows }, RowSlice { bytes: others, ..rows }))
+    }
+    fn pad(rows: RowSlice<'_>) -> [u8; QUAD * MAX_LANES] {
+        let mut buffer = [0; QUAD * MAX_LANES];
+        let rows = rows.bytes.chunks(rows.stride.max(1));
+        for (to, from) in buffer.chunks_mut(QUAD).zip(rows) {
+            copy(from, to);
+        }
+        buffer
+    }
+    fn slices(buffer: &[u8; QUAD * MAX_LANES], len: usize) -> Option<RowSlice<'_>> {
+        Some(RowSlice { bytes: buffer.get(..QUAD * len)?, stride: QUAD })
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
+        rows: <Self as Input>::Slices<'a>,
+        _: usize,
+    ) -> Option<<Self as Input>::Blocks<'a, V>> {
+        (rows.stride >= QUAD).then_some(rows)
+    }
+    #[inline(always)]
+    fn load<V: Simd>(rows: RowSlice<'_>, i: usize) -> Option<[V; C]> {
+        let mut rest = rows.bytes.get(i * V::LANES * rows.stride..)?;
+        V::load_quads(
+            #[inline(always)]
+            || {
+                let (row, others) = rest.split_at_checked(rows.stride)?;
+                rest = others;
+                row.first_chunk()
+            },
+        )
+    }
+}
+
+impl<const C: usize> Output for Strided<C> {
+    type Slices<'a> = RowSliceMut<'a>;
+    type Blocks<'a, V: Simd> = RowSliceMut<'a>;
+    type Buffer = [u8; QUAD * MAX_LANES];
+    type In<V: Simd> = [V; C];
+
+    fn split<'a>(
+        rows: <Self as Output>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Output>::Slices<'a>, <Self as Output>::Slices<'a>)> {
+        let RowSliceMut { bytes, stride } = rows;
+        let (first, others) = bytes.split_at_mut_checked(at * stride)?;
+        Some((RowSliceMut { bytes: first, stride }, RowSliceMut { bytes: others, stride }))
+    }
+    fn pad(_: &RowSliceMut<'_>) -> [u8; QUAD * MAX_LANES] {
+        [0; QUAD * MAX_LANES]
+    }
+    fn slices(buffer: &mut [u8; QUAD * MAX_LANES], len: usize) -> Option<RowSliceMut<'_>> {
+        Some(RowSliceMut { bytes: buffer.get_mut(..QUAD * len)?, stride: QUAD })
+    }
+    fn cut(buffer: &[u8; QUAD * MAX_LANES], rows: RowSliceMut<'_>) {
+        let rows = rows.bytes.chunks_mut(rows.stride.max(1));
+        for (from, to) in buffer.chunks(QUAD).zip(rows) {
+            copy(from.get(..4 * C).unwrap_or_default(), to);
+        }
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
+        rows: <Self as Output>::Slices<'a>,
+        _: usize,
+    ) -> Option<<Self as Output>::Blocks<'a, V>> {
+        (rows.stride >= QUAD).then_some(rows)
+    }
+    #[inline(always)]
+    fn store<V: Simd>(rows: &mut RowSliceMut<'_>, i: usize, value: [V; C], _: bool) {
+        let stride = rows.stride;
+        let Some(mut rest) = rows.bytes.get_mut(i * V::LANES * stride..) else { return };
+        let _: Option<()> = V::store_quads(
+            value,
+            #[inline(always)]
+            || {
+                let (row, others) = core::mem::take(&mut rest).split_at_mut_checked(stride)?;
+                rest = others;
+                row.first_chunk_mut()
+            },
+        );
     }
 }
 
@@ -333,24 +499,31 @@ pub(crate) struct Indices {
 impl Input for Indices {
     type Slices<'a> = Self;
     type Blocks<'a, V: Simd> = Self;
-    type Block<V: Simd> = Self;
+    type Buffer = Self;
     type In<V: Simd> = V::Int;
 
     fn len(indices: Self) -> usize {
         indices.len
     }
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        Indices { first, len }: <Self as Input>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
+        let others = Indices { first: first.wrapping_add(at as u32), len: len.checked_sub(at)? };
+        Some((Indices { first, len: at }, others))
+    }
+    fn pad(indices: Self) -> Self {
+        indices
+    }
+    fn slices(indices: &Self, len: usize) -> Option<Self> {
+        Some(Indices { len, ..*indices })
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         indices: <Self as Input>::Slices<'a>,
-        count: usize,
-    ) -> Option<(<Self as Input>::Blocks<'a, V>, <Self as Input>::Slices<'a>)> {
-        let first = indices.first.wrapping_add((count * V::LANES) as u32);
-        Some((indices, Indices { first, len: indices.len % V::LANES }))
-    }
-    fn pad<V: Simd>(rest: Self) -> Option<Self> {
-        Some(rest)
-    }
-    fn as_blocks<V: Simd>(block: &Self) -> Self {
-        *block
+        _: usize,
+    ) -> Option<<Self as Input>::Blocks<'a, V>> {
+        Some(indices)
     }
     #[inline(always)]
     fn load<V: Simd>(indices: Self, i: usize) -> Option<V::Int> {
@@ -363,24 +536,31 @@ impl Input for Indices {
 impl<A: Input, B: Input> Input for (A, B) {
     type Slices<'a> = (A::Slices<'a>, B::Slices<'a>);
     type Blocks<'a, V: Simd> = (A::Blocks<'a, V>, B::Blocks<'a, V>);
-    type Block<V: Simd> = (A::Block<V>, B::Block<V>);
+    type Buffer = (A::Buffer, B::Buffer);
     type In<V: Simd> = (A::In<V>, B::In<V>);
 
     fn len((a, _): Self::Slices<'_>) -> usize {
         A::len(a)
     }
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        (a, b): <Self as Input>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
+        let ((a, other_a), (b, other_b)) = (A::split(a, at)?, B::split(b, at)?);
+        Some(((a, b), (other_a, other_b)))
+    }
+    fn pad((a, b): Self::Slices<'_>) -> Self::Buffer {
+        (A::pad(a), B::pad(b))
+    }
+    fn slices((a, b): &Self::Buffer, len: usize) -> Option<Self::Slices<'_>> {
+        Some((A::slices(a, len)?, B::slices(b, len)?))
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         (a, b): <Self as Input>::Slices<'a>,
         count: usize,
-    ) -> Option<(<Self as Input>::Blocks<'a, V>, <Self as Input>::Slices<'a>)> {
-        let ((a, rest_a), (b, rest_b)) = (A::split::<V>(a, count)?, B::split::<V>(b, count)?);
-        Some(((a, b), (rest_a, rest_b)))
-    }
-    fn pad<V: Simd>((a, b): Self::Slices<'_>) -> Option<Self::Block<V>> {
-        Some((A::pad::<V>(a)?, B::pad::<V>(b)?))
-    }
-    fn as_blocks<V: Simd>((a, b): &Self::Block<V>) -> Self::Blocks<'_, V> {
-        (A::as_blocks::<V>(a), B::as_blocks::<V>(b))
+    ) -> Option<<Self as Input>::Blocks<'a, V>> {
+        Some((A::blocks::<V>(a, count)?, B::blocks::<V>(b, count)?))
     }
     #[inline(always)]
     fn load<V: Simd>((a, b): Self::Blocks<'_, V>, i: usize) -> Option<Self::In<V>> {
@@ -391,25 +571,32 @@ impl<A: Input, B: Input> Input for (A, B) {
 impl<A: Output, B: Output> Output for (A, B) {
     type Slices<'a> = (A::Slices<'a>, B::Slices<'a>);
     type Blocks<'a, V: Simd> = (A::Blocks<'a, V>, B::Blocks<'a, V>);
-    type Block<V: Simd> = (A::Block<V>, B::Block<V>);
+    type Buffer = (A::Buffer, B::Buffer);
     type In<V: Simd> = (A::In<V>, B::In<V>);
 
-    fn split<'a, V: Simd>(
+    fn split<'a>(
+        (a, b): <Self as Output>::Slices<'a>,
+        at: usize,
+    ) -> Option<(<Self as Output>::Slices<'a>, <Self as Output>::Slices<'a>)> {
+        let ((a, other_a), (b, other_b)) = (A::split(a, at)?, B::split(b, at)?);
+        Some(((a, b), (other_a, other_b)))
+    }
+    fn pad((a, b): &Self::Slices<'_>) -> Self::Buffer {
+        (A::pad(a), B::pad(b))
+    }
+    fn slices((a, b): &mut Self::Buffer, len: usize) -> Option<Self::Slices<'_>> {
+        Some((A::slices(a, len)?, B::slices(b, len)?))
+    }
+    fn cut((a, b): &Self::Buffer, (to_a, to_b): Self::Slices<'_>) {
+        A::cut(a, to_a);
+        B::cut(b, to_b);
+    }
+    #[inline(always)]
+    fn blocks<'a, V: Simd>(
         (a, b): <Self as Output>::Slices<'a>,
         count: usize,
-    ) -> Option<(<Self as Output>::Blocks<'a, V>, <Self as Output>::Slices<'a>)> {
-        let ((a, rest_a), (b, rest_b)) = (A::split::<V>(a, count)?, B::split::<V>(b, count)?);
-        Some(((a, b), (rest_a, rest_b)))
-    }
-    fn pad<V: Simd>((a, b): &Self::Slices<'_>) -> Self::Block<V> {
-        (A::pad::<V>(a), B::pad::<V>(b))
-    }
-    fn as_blocks<V: Simd>((a, b): &mut Self::Block<V>) -> Self::Blocks<'_, V> {
-        (A::as_blocks::<V>(a), B::as_blocks::<V>(b))
-    }
-    fn cut<V: Simd>((a, b): &Self::Block<V>, (rest_a, rest_b): Self::Slices<'_>) {
-        A::cut::<V>(a, rest_a);
-        B::cut::<V>(b, rest_b);
+    ) -> Option<<Self as Output>::Blocks<'a, V>> {
+        Some((A::blocks::<V>(a, count)?, B::blocks::<V>(b, count)?))
     }
     #[inline(always)]
     fn store<V: Simd>(
@@ -420,5 +607,12 @@ impl<A: Output, B: Output> Output for (A, B) {
     ) {
         A::store::<V>(a, i, value.0, streams);
         B::store::<V>(b, i, value.1, streams);
+    }
+}
+
+/// Fills a slice with the elements, again and again.
+fn repeat<T: Copy>(from: &[T], to: &mut [T]) {
+    for (to, from) in to.iter_mut().zip(from.iter().cycle()) {
+        *to = *from;
     }
 }

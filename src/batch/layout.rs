@@ -3,14 +3,18 @@
 
 use bytemuck::Pod;
 
-use super::columns::{Columns, Rows};
+use super::columns::{Columns, Input, Output, RowSlice, RowSliceMut, Rows, Strided, empty};
 use super::storage::{CodeSlice, CodeSliceMut, MAX_CODE, copy, swap_if_big_endian};
 use super::{Kernel, map};
 use crate::simd::Simd;
 use crate::simd::stream::{self, Fence};
 
 /// Elements that are converted at a time: more where each part costs a check of the processor.
-pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { 64 };
+pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { FEW };
+/// As many, where nothing else needs room.
+const MANY: usize = if cfg!(feature = "std") { 1024 } else { FEW };
+/// A part of so few that the room for it costs little.
+const FEW: usize = 64;
 
 /// Vectors of `K` components to read.
 #[derive(Clone, Copy)]
@@ -85,20 +89,12 @@ impl<'a> Codes<'a> {
         self.codes.bytes.len().checked_div(self.codes.size).unwrap_or(0)
     }
 
-    /// At most [`PART`] codes at a time.
-    pub(crate) fn parts(self) -> impl Iterator<Item = Self> {
+    /// At most `len` codes at a time.
+    pub(crate) fn parts(self, len: usize) -> impl Iterator<Item = Self> {
         let Codes { codes: CodeSlice { bytes, size }, native } = self;
         bytes
-            .chunks((PART * size).max(1))
+            .chunks((len * size).max(1))
             .map(move |bytes| Codes { codes: CodeSlice { bytes, size }, native })
-    }
-
-    /// The first `len` codes, and the others.
-    fn split_at(self, len: usize) -> (Self, Self) {
-        let CodeSlice { bytes, size } = self.codes;
-        let (first, others) = bytes.split_at(len.saturating_mul(size).min(bytes.len()));
-        let codes = |bytes| Codes { codes: CodeSlice { bytes, size }, ..self };
-        (codes(first), codes(others))
     }
 
     /// Whether their bytes are little-endian.
@@ -106,13 +102,13 @@ impl<'a> Codes<'a> {
         cfg!(target_endian = "little") || self.native == 1
     }
 
-    /// Calls a kernel with codes, at most [`PART`] of them.
+    /// Calls a kernel with codes, at most [`MANY`] of them.
     pub(crate) fn read(self, kernel: impl FnOnce(CodeSlice<'_>)) {
         if self.is_direct() {
             return kernel(self.codes);
         }
         let CodeSlice { bytes, size } = self.codes;
-        let mut buffer = [0; MAX_CODE * PART];
+        let mut buffer = [0; MAX_CODE * MANY];
         if let Some(swapped) = buffer.get_mut(..bytes.len()) {
             copy(bytes, swapped);
             swap_if_big_endian(swapped, self.native);
@@ -137,11 +133,11 @@ impl<'a> CodesMut<'a> {
         self.codes.bytes.len().checked_div(self.codes.size).unwrap_or(0)
     }
 
-    /// At most [`PART`] codes at a time.
-    pub(crate) fn parts(self) -> impl Iterator<Item = Self> {
+    /// At most `len` codes at a time.
+    pub(crate) fn parts(self, len: usize) -> impl Iterator<Item = Self> {
         let CodesMut { codes: CodeSliceMut { bytes, size }, native } = self;
         bytes
-            .chunks_mut((PART * size).max(1))
+            .chunks_mut((len * size).max(1))
             .map(move |bytes| CodesMut { codes: CodeSliceMut { bytes, size }, native })
     }
 
@@ -160,37 +156,82 @@ pub(crate) fn encode<const K: usize>(
     codes: CodesMut<'_>,
     kernel: &dyn Fn([&[f32]; K], CodeSliceMut<'_>),
 ) {
-    if let Vectors::Columns(columns) = vectors {
-        return codes.write(|codes| kernel(columns, codes));
+    match vectors {
+        Vectors::Columns(columns) => codes.write(|codes| kernel(columns, codes)),
+        Vectors::Rows { .. } if codes.len() <= FEW => {
+            encode_parts::<K, FEW>(vectors, codes, kernel);
+        }
+        Vectors::Rows { .. } => encode_parts::<K, MANY>(vectors, codes, kernel),
     }
+}
+
+#[inline(never)]
+fn encode_parts<const K: usize, const PART: usize>(
+    vectors: Vectors<'_, K>,
+    codes: CodesMut<'_>,
+    kernel: &dyn Fn([&[f32]; K], CodeSliceMut<'_>),
+) {
     let mut buffer = [[0.0; PART]; K];
-    for (part, codes) in codes.parts().enumerate() {
+    for (part, codes) in codes.parts(PART).enumerate() {
         let columns = vectors.part(part * PART, codes.len(), &mut buffer);
         codes.write(|codes| kernel(columns, codes));
     }
 }
 
-/// Decodes to vectors of any layout. Of what the kernel streams, the fence is dropped here.
+/// What decodes to columns. Its caller drops the fence.
+type DecodeKernel<'k, const K: usize> = &'k dyn Fn(CodeSlice<'_>, [&mut [f32]; K], &Fence);
+
+/// Decodes to vectors of any layout.
 #[inline(never)]
 pub(crate) fn decode<const K: usize>(
-    mut codes: Codes<'_>,
+    codes: Codes<'_>,
+    vectors: VectorsMut<'_, K>,
+    kernel: DecodeKernel<'_, K>,
+) {
+    match vectors {
+        VectorsMut::Columns(columns) if codes.is_direct() => {
+            decode_columns(codes.codes, columns, kernel);
+        }
+        _ if codes.len() <= FEW => decode_parts::<K, FEW>(codes, vectors, kernel),
+        _ => decode_parts::<K, MANY>(codes, vectors, kernel),
+    }
+}
+
+#[inline(never)]
+fn decode_columns<const K: usize>(
+    codes: CodeSlice<'_>,
+    columns: [&mut [f32]; K],
+    kernel: DecodeKernel<'_, K>,
+) {
+    let bytes = columns.first().map_or(0, |x| K * size_of_val::<[f32]>(x));
+    if !stream::is_large(bytes) {
+        return kernel(codes, columns, &Fence::new(false));
+    }
+    // Streaming begins after the vectors whose x is not aligned. Columns are alike if they begin
+    // alike.
+    let unaligned =
+        columns.first().map_or(0, |x| x.as_ptr().align_offset(stream::ALIGNMENT).min(x.len()));
+    if let Some((unaligned_codes, codes)) = codes.split_at(unaligned)
+        && let Some((unaligned, columns)) = split_columns(columns, unaligned)
+    {
+        kernel(unaligned_codes, unaligned, &Fence::new(false));
+        kernel(codes, columns, &Fence::new(true));
+    }
+}
+
+#[inline(never)]
+fn decode_parts<const K: usize, const PART: usize>(
+    codes: Codes<'_>,
     mut vectors: VectorsMut<'_, K>,
-    kernel: &dyn Fn(CodeSlice<'_>, [&mut [f32]; K], &Fence),
+    kernel: DecodeKernel<'_, K>,
 ) {
     let mut buffer = [[0.0; PART]; K];
-    let fence = Fence::new(vectors.is_large());
-    let part_len = if codes.is_direct() && vectors.is_columns() { usize::MAX } else { PART };
-    // Streaming stores begin after the vectors that are not aligned.
-    let mut unaligned = if fence.streams() { vectors.unaligned() } else { 0 };
-    while codes.len() > 0 {
-        let len = if unaligned > 0 { unaligned } else { part_len };
-        let (codes_part, vectors_part);
-        (codes_part, codes) = codes.split_at(len);
-        (vectors_part, vectors) = vectors.split_at(len);
-        codes_part.read(|codes| {
-            vectors_part.write(&mut buffer, |columns| kernel(codes, columns, &fence));
+    for codes in codes.parts(PART) {
+        let part;
+        (part, vectors) = vectors.split_at(codes.len());
+        codes.read(|codes| {
+            part.write(&mut buffer, |columns| kernel(codes, columns, &Fence::new(false)));
         });
-        unaligned = 0;
     }
 }
 
@@ -203,7 +244,7 @@ pub(crate) fn transcode(
     to: CodesMut<'_>,
 ) {
     let mut buffer = [[0.0; PART]; 3];
-    for (from, to) in from.parts().zip(to.parts()) {
+    for (from, to) in from.parts(PART).zip(to.parts(PART)) {
         let len = from.len();
         if let Some(columns) = columns_mut(&mut buffer, len) {
             decode(from, VectorsMut::Columns(columns));
@@ -216,7 +257,7 @@ pub(crate) fn transcode(
 #[inline(never)]
 pub(crate) fn map_codes(codes: CodesMut<'_>, kernel: &dyn Fn(CodeSlice<'_>, CodeSliceMut<'_>)) {
     let mut buffer = [0; MAX_CODE * PART];
-    for part in codes.parts() {
+    for part in codes.parts(PART) {
         let native = part.native;
         let CodeSliceMut { bytes, size } = part.codes;
         if let Some(before) = buffer.get_mut(..bytes.len()) {
@@ -229,41 +270,11 @@ pub(crate) fn map_codes(codes: CodesMut<'_>, kernel: &dyn Fn(CodeSlice<'_>, Code
 }
 
 impl<'a, const K: usize> VectorsMut<'a, K> {
-    fn is_columns(&self) -> bool {
-        matches!(self, VectorsMut::Columns(_))
-    }
-
-    /// Whether stores should stream.
-    fn is_large(&self) -> bool {
-        match self {
-            VectorsMut::Columns(columns) => {
-                columns.first().is_some_and(|x| stream::is_large(K * size_of_val::<[f32]>(x)))
-            }
-            VectorsMut::Rows { .. } => false,
-        }
-    }
-
-    /// Number of vectors before the first whose x can be streamed to. All columns are alike if they
-    /// begin alike.
-    fn unaligned(&self) -> usize {
-        match self {
-            VectorsMut::Columns(columns) => columns
-                .first()
-                .map_or(0, |x| x.as_ptr().align_offset(stream::ALIGNMENT).min(x.len()).min(PART)),
-            VectorsMut::Rows { .. } => 0,
-        }
-    }
-
-    /// The first `len` vectors, and the others.
+    /// The first `len` vectors, and the others. No vectors if there are fewer.
     pub(crate) fn split_at(self, len: usize) -> (Self, Self) {
         match self {
             VectorsMut::Columns(columns) => {
-                let (mut first, mut others) = (empty(), empty());
-                for ((column, first), others) in
-                    columns.into_iter().zip(&mut first).zip(&mut others)
-                {
-                    (*first, *others) = column.split_at_mut(len.min(column.len()));
-                }
+                let (first, others) = split_columns(columns, len).unwrap_or((empty(), empty()));
                 (VectorsMut::Columns(first), VectorsMut::Columns(others))
             }
             VectorsMut::Rows { bytes, stride } => {
@@ -277,28 +288,28 @@ impl<'a, const K: usize> VectorsMut<'a, K> {
         }
     }
 
-    /// Writes columns. Rows, at most [`PART`], are written by way of `buffer`.
-    pub(crate) fn write(self, buffer: &mut [[f32; PART]; K], write: impl FnOnce([&mut [f32]; K])) {
+    /// Writes columns. Rows, at most `PART`, are written by way of `buffer`.
+    pub(crate) fn write<const PART: usize>(
+        self,
+        buffer: &mut [[f32; PART]; K],
+        write: impl FnOnce([&mut [f32]; K]),
+    ) {
         match self {
             VectorsMut::Columns(columns) => write(columns),
             VectorsMut::Rows { bytes, stride } => {
                 let len = bytes.len().div_ceil(stride.max(1));
-                if let Some(columns) = columns_mut(buffer, len) {
-                    write(columns);
-                    scatter(buffer, len, bytes, stride);
+                if let Some(to) = columns_mut(buffer, len) {
+                    write(to);
+                    scatter(columns(buffer, len), bytes, stride);
                 }
             }
         }
     }
 }
 
-fn empty<'a, const K: usize>() -> [&'a mut [f32]; K] {
-    [(); K].map(|()| &mut [][..])
-}
-
 impl<const K: usize> Vectors<'_, K> {
-    /// `len` vectors from the one at `first` on, at most [`PART`].
-    pub(crate) fn part<'b>(
+    /// `len` vectors from the one at `first` on, at most `PART`.
+    pub(crate) fn part<'b, const PART: usize>(
         &'b self,
         first: usize,
         len: usize,
@@ -309,94 +320,121 @@ impl<const K: usize> Vectors<'_, K> {
                 columns.map(|column| column.get(first..first + len).unwrap_or_default())
             }
             Vectors::Rows { bytes, stride } => {
-                let rows = bytes.get(first * stride..).unwrap_or_default();
-                gather(rows, stride, buffer, len);
-                self::columns(buffer, len)
+                if let Some(rows) = bytes.get(first * stride..)
+                    && let Some(columns) = columns_mut(buffer, len)
+                {
+                    gather(rows, stride, columns);
+                }
+                columns(buffer, len)
             }
         }
     }
 }
 
 /// The first `len` elements of each column.
-pub(crate) fn columns<const K: usize>(buffer: &[[f32; PART]; K], len: usize) -> [&[f32]; K] {
+pub(crate) fn columns<const K: usize, const PART: usize>(
+    buffer: &[[f32; PART]; K],
+    len: usize,
+) -> [&[f32]; K] {
     buffer.each_ref().map(|column| column.get(..len).unwrap_or_default())
 }
 
 /// The first `len` elements of each column, or `None` if there are fewer.
-pub(crate) fn columns_mut<const K: usize>(
+pub(crate) fn columns_mut<const K: usize, const PART: usize>(
     buffer: &mut [[f32; PART]; K],
     len: usize,
 ) -> Option<[&mut [f32]; K]> {
     (len <= PART).then(|| buffer.each_mut().map(|column| column.get_mut(..len).unwrap_or_default()))
 }
 
-/// From rows to columns.
-fn gather<const K: usize>(rows: &[u8], stride: usize, columns: &mut [[f32; PART]; K], len: usize) {
-    let Some(to) = columns_mut(columns, len) else { return };
+/// The first `at` elements of each column, and the others. `None` if there are fewer.
+fn split_columns<const K: usize>(
+    columns: [&mut [f32]; K],
+    at: usize,
+) -> Option<([&mut [f32]; K], [&mut [f32]; K])> {
+    <Columns<K> as Output>::split(columns, at)
+}
+
+/// From rows to columns, as many as those have elements.
+#[inline(never)]
+fn gather<const K: usize>(bytes: &[u8], stride: usize, columns: [&mut [f32]; K]) {
+    let len = columns.first().map_or(0, |column| column.len());
     if stride == 4 * K {
-        gather_rows::<K, K>(rows, to);
-    } else if stride == 16 && K == 3 {
-        gather_rows::<4, K>(rows, to);
-    } else {
-        for (i, row) in rows.chunks(stride.max(1)).take(len).enumerate() {
-            for (column, c) in columns.iter_mut().zip(row.as_chunks().0) {
-                if let Some(to) = column.get_mut(i) {
-                    *to = f32::from_ne_bytes(*c);
-                }
+        return gather_rows::<K, K>(bytes, columns, len);
+    }
+    if stride == 16 {
+        return gather_rows::<4, K>(bytes, columns, len);
+    }
+    // The last row may end before a whole stride.
+    let whole = if stride > 16 { (bytes.len() / stride).min(len) } else { 0 };
+    if let Some((rows, rest)) = bytes.split_at_checked(whole * stride)
+        && let Some((columns, rest_columns)) = split_columns(columns, whole)
+    {
+        map::<Strided<K>, Columns<K>>(Transpose, RowSlice { bytes: rows, stride }, columns);
+        for (c, column) in rest_columns.into_iter().enumerate() {
+            for (to, row) in column.iter_mut().zip(rest.chunks(stride.max(1))) {
+                *to = row.as_chunks().0.get(c).copied().map_or(0.0, f32::from_ne_bytes);
             }
         }
     }
 }
 
 /// From columns to rows, whose other bytes stay.
-fn scatter<const K: usize>(columns: &[[f32; PART]; K], len: usize, rows: &mut [u8], stride: usize) {
-    let from = self::columns(columns, len);
+#[inline(never)]
+fn scatter<const K: usize>(columns: [&[f32]; K], bytes: &mut [u8], stride: usize) {
     if stride == 4 * K {
-        scatter_rows::<K, K>(from, rows);
-    } else if stride == 16 && K == 3 {
-        scatter_rows::<4, K>(from, rows);
-    } else {
-        for (i, row) in rows.chunks_mut(stride.max(1)).take(len).enumerate() {
-            for (column, c) in columns.iter().zip(row.as_chunks_mut().0) {
-                if let Some(from) = column.get(i) {
-                    *c = from.to_ne_bytes();
+        return scatter_rows::<K, K>(columns, bytes);
+    }
+    if stride == 16 {
+        return scatter_rows::<4, K>(columns, bytes);
+    }
+    // The last row may end before a whole stride.
+    let whole = if stride > 16 { bytes.len() / stride } else { 0 };
+    if let Some((rows, rest)) = bytes.split_at_mut_checked(whole * stride)
+        && let Some((columns, rest_columns)) = <Columns<K> as Input>::split(columns, whole)
+    {
+        map::<Columns<K>, Strided<K>>(Transpose, columns, RowSliceMut { bytes: rows, stride });
+        for (c, column) in rest_columns.into_iter().enumerate() {
+            for (from, row) in column.iter().zip(rest.chunks_mut(stride.max(1))) {
+                if let Some(to) = row.as_chunks_mut().0.get_mut(c) {
+                    *to = from.to_ne_bytes();
                 }
             }
         }
     }
 }
 
-#[inline(never)]
-fn gather_rows<const N: usize, const K: usize>(rows: &[u8], to: [&mut [f32]; K]) {
-    let len = to.first().map_or(0, |column| column.len());
-    let rows = rows.as_chunks().0.as_chunks().0.get(..len).unwrap_or_default();
-    map::<Rows<N, K>, Columns<K>>(Transpose, rows, to);
+fn gather_rows<const N: usize, const K: usize>(bytes: &[u8], columns: [&mut [f32]; K], len: usize) {
+    let rows = bytes.as_chunks().0.as_chunks().0.get(..len).unwrap_or_default();
+    map::<Rows<N, K>, Columns<K>>(Transpose, rows, columns);
 }
 
-#[inline(never)]
-fn scatter_rows<const N: usize, const K: usize>(from: [&[f32]; K], rows: &mut [u8]) {
-    let rows = rows.as_chunks_mut().0.as_chunks_mut().0;
-    map::<Columns<K>, Rows<N, K>>(Transpose, from, rows);
+fn scatter_rows<const N: usize, const K: usize>(columns: [&[f32]; K], bytes: &mut [u8]) {
+    let rows = bytes.as_chunks_mut().0.as_chunks_mut().0;
+    map::<Columns<K>, Rows<N, K>>(Transpose, columns, rows);
 }
 
 /// Between rows and columns.
+#[derive(Clone, Copy)]
 struct Transpose;
 
-impl<const N: usize, const K: usize> Kernel<Rows<N, K>, Columns<K>> for Transpose {
-    // It has no shuffles; the compiler does better with a scalar loop.
-    const USE_WIDE: bool = false;
+macro_rules! transpose {
+    ($([$($generics:tt)*] $from:ty => $to:ty;)*) => { $(
+        impl<$($generics)*> Kernel<$from, $to> for Transpose {
+            // It has no shuffles; the compiler does better with a scalar loop.
+            const USE_WIDE: bool = false;
 
-    #[inline(always)]
-    fn run<V: Simd>(&self, vectors: [V; K]) -> [V; K] {
-        vectors
-    }
+            #[inline(always)]
+            fn run<V: Simd>(self, vectors: [V; K]) -> [V; K] {
+                vectors
+            }
+        }
+    )* };
 }
 
-impl<const N: usize, const K: usize> Kernel<Columns<K>, Rows<N, K>> for Transpose {
-    const USE_WIDE: bool = false;
-
-    #[inline(always)]
-    fn run<V: Simd>(&self, vectors: [V; K]) -> [V; K] {
-        vectors
-    }
+transpose! {
+    [const N: usize, const K: usize] Rows<N, K> => Columns<K>;
+    [const N: usize, const K: usize] Columns<K> => Rows<N, K>;
+    [const K: usize] Strided<K> => Columns<K>;
+    [const K: usize] Columns<K> => Strided<K>;
 }

@@ -14,13 +14,13 @@ use crate::simd::stream::Fence;
 use columns::{Input, Output};
 
 /// What a loop does with one block.
-pub(crate) trait Kernel<I: Input, O: Output> {
+pub(crate) trait Kernel<I: Input, O: Output>: Copy {
     /// See [`BatchLoop::USE_WIDE`].
     const USE_WIDE: bool = true;
     /// See [`BatchLoop::USE_AVX512`].
     const USE_AVX512: bool = true;
 
-    fn run<V: Simd>(&self, input: I::In<V>) -> O::In<V>;
+    fn run<V: Simd>(self, input: I::In<V>) -> O::In<V>;
 }
 
 /// Runs `kernel` over all blocks. Whoever makes the fence drops it before others may read the output.
@@ -58,10 +58,13 @@ impl<K: Kernel<I, O>, I: Input, O: Output> BatchLoop for Loop<'_, '_, K, I, O> {
     #[inline(always)]
     fn run<V: Simd>(self) {
         let Loop { kernel, input, output, streams } = self;
-        run_blocks::<V, I, O>(input, output, &|blocks, mut output, count| {
+        run_padded::<I, O>(V::LANES, input, output, &|input, output, count| {
             V::with_target_features(
                 #[inline(always)]
-                || {
+                move || {
+                    let blocks = I::blocks::<V>(input, count);
+                    let output_blocks = O::blocks::<V>(output, count);
+                    let (Some(blocks), Some(mut output)) = (blocks, output_blocks) else { return };
                     for i in 0..count {
                         let Some(block) = I::load::<V>(blocks, i) else { return };
                         O::store::<V>(&mut output, i, kernel.run::<V>(block), streams);
@@ -72,24 +75,28 @@ impl<K: Kernel<I, O>, I: Input, O: Output> BatchLoop for Loop<'_, '_, K, I, O> {
     }
 }
 
-/// Runs `kernel` over the whole blocks, and then over the remainder in a padded block. Not generic
-/// over the kernel, so that all kernels between the same kinds of slices share it.
+/// Runs `kernel` over a number of whole blocks, and then over the remainder in a padded block. Not
+/// generic over the kernel, so that all kernels between the same kinds of slices share it.
 #[inline(never)]
-fn run_blocks<V: Simd, I: Input, O: Output>(
+fn run_padded<I: Input, O: Output>(
+    lanes: usize,
     input: I::Slices<'_>,
     output: O::Slices<'_>,
-    kernel: &dyn Fn(I::Blocks<'_, V>, O::Blocks<'_, V>, usize),
+    kernel: &dyn Fn(I::Slices<'_>, O::Slices<'_>, usize),
 ) {
     let len = I::len(input);
-    let count = len / V::LANES;
-    let Some((blocks, rest)) = I::split::<V>(input, count) else { return };
-    let Some((output_blocks, output_rest)) = O::split::<V>(output, count) else { return };
-    kernel(blocks, output_blocks, count);
-    if len % V::LANES > 0
-        && let Some(block) = I::pad::<V>(rest)
-    {
-        let mut output_block = O::pad::<V>(&output_rest);
-        kernel(I::as_blocks::<V>(&block), O::as_blocks::<V>(&mut output_block), 1);
-        O::cut::<V>(&output_block, output_rest);
+    let rest_len = len % lanes;
+    let Some((blocks, rest)) = I::split(input, len - rest_len) else { return };
+    let Some((output_blocks, output_rest)) = O::split(output, len - rest_len) else { return };
+    kernel(blocks, output_blocks, len / lanes);
+    if rest_len > 0 {
+        let block = I::pad(rest);
+        let mut output_block = O::pad(&output_rest);
+        if let (Some(block), Some(output)) =
+            (I::slices(&block, lanes), O::slices(&mut output_block, lanes))
+        {
+            kernel(block, output, 1);
+        }
+        O::cut(&output_block, output_rest);
     }
 }

@@ -2,6 +2,7 @@
 
 use bytemuck::Pod;
 
+use super::columns::{blocks, blocks_mut};
 use crate::simd::Simd;
 
 /// Number of 32-bit words that hold a code in lanes.
@@ -45,61 +46,128 @@ pub(crate) struct CodeSliceMut<'a> {
     pub(crate) size: usize,
 }
 
+impl<'a> CodeSlice<'a> {
+    pub(crate) fn len(self) -> usize {
+        self.bytes.len().checked_div(self.size).unwrap_or(0)
+    }
+
+    /// The first `at` codes, and the others. `None` if there are fewer.
+    pub(crate) fn split_at(self, at: usize) -> Option<(Self, Self)> {
+        let (first, others) = self.bytes.split_at_checked(at * self.size)?;
+        Some((CodeSlice { bytes: first, ..self }, CodeSlice { bytes: others, ..self }))
+    }
+}
+
 /// Codes of one size, the [`CodeBytes`], or of any that a word holds: [`Words`].
 pub(crate) trait CodeKind: 'static {
     type Shape: CodeShape;
+    /// Whole blocks of codes.
+    type Blocks<'a, V: Simd>: Copy;
+    /// Whole blocks of codes.
+    type BlocksMut<'a, V: Simd>;
 
+    fn blocks<V: Simd>(codes: CodeSlice<'_>, count: usize) -> Option<Self::Blocks<'_, V>>;
+    fn blocks_mut<V: Simd>(codes: CodeSliceMut<'_>, count: usize)
+    -> Option<Self::BlocksMut<'_, V>>;
     /// Block `i`.
-    fn load<V: Simd>(codes: CodeSlice<'_>, i: usize) -> Option<ShapeIn<Self::Shape, V>>;
+    fn load<V: Simd>(blocks: Self::Blocks<'_, V>, i: usize) -> Option<ShapeIn<Self::Shape, V>>;
     /// Writes block `i`.
-    fn store<V: Simd>(code: ShapeIn<Self::Shape, V>, codes: &mut CodeSliceMut<'_>, i: usize);
-}
-
-/// Codes of one to four bytes. Their size is looked at for each block.
-pub(crate) struct Words;
-
-impl CodeKind for Words {
-    type Shape = Word;
-
-    #[inline(always)]
-    fn load<V: Simd>(codes: CodeSlice<'_>, i: usize) -> Option<V::Int> {
-        match codes.size {
-            1 => <[u8; 1] as CodeKind>::load::<V>(codes, i),
-            2 => <[u8; 2] as CodeKind>::load::<V>(codes, i),
-            3 => <[u8; 3] as CodeKind>::load::<V>(codes, i),
-            _ => <[u8; 4] as CodeKind>::load::<V>(codes, i),
-        }
-    }
-    #[inline(always)]
-    fn store<V: Simd>(code: V::Int, codes: &mut CodeSliceMut<'_>, i: usize) {
-        match codes.size {
-            1 => <[u8; 1] as CodeKind>::store::<V>(code, codes, i),
-            2 => <[u8; 2] as CodeKind>::store::<V>(code, codes, i),
-            3 => <[u8; 3] as CodeKind>::store::<V>(code, codes, i),
-            _ => <[u8; 4] as CodeKind>::store::<V>(code, codes, i),
-        }
-    }
+    fn store<V: Simd>(code: ShapeIn<Self::Shape, V>, blocks: &mut Self::BlocksMut<'_, V>, i: usize);
 }
 
 impl<B: CodeBytes> CodeKind for B {
     type Shape = B::Shape;
+    type Blocks<'a, V: Simd> = &'a [V::Block<B>];
+    type BlocksMut<'a, V: Simd> = &'a mut [V::Block<B>];
 
     #[inline(always)]
-    fn load<V: Simd>(codes: CodeSlice<'_>, i: usize) -> Option<CodeIn<B, V>> {
-        let size = V::LANES * size_of::<B>();
-        let bytes = codes.bytes.get(i * size..)?.get(..size)?;
-        let elements = bytemuck::try_cast_slice(bytes).ok()?;
-        Some(B::load::<V>(V::split(elements).0.first()?))
+    fn blocks<V: Simd>(codes: CodeSlice<'_>, count: usize) -> Option<&[V::Block<B>]> {
+        blocks::<V, B>(bytemuck::try_cast_slice(codes.bytes).ok()?, count)
     }
     #[inline(always)]
-    fn store<V: Simd>(code: CodeIn<B, V>, codes: &mut CodeSliceMut<'_>, i: usize) {
-        let size = V::LANES * size_of::<B>();
-        if let Some(bytes) = codes.bytes.get_mut(i * size..)
-            && let Some(bytes) = bytes.get_mut(..size)
-            && let Ok(elements) = bytemuck::try_cast_slice_mut(bytes)
-            && let Some(block) = V::split_mut(elements).0.first_mut()
-        {
+    fn blocks_mut<V: Simd>(codes: CodeSliceMut<'_>, count: usize) -> Option<&mut [V::Block<B>]> {
+        blocks_mut::<V, B>(bytemuck::try_cast_slice_mut(codes.bytes).ok()?, count)
+    }
+    #[inline(always)]
+    fn load<V: Simd>(blocks: &[V::Block<B>], i: usize) -> Option<CodeIn<B, V>> {
+        Some(B::load::<V>(blocks.get(i)?))
+    }
+    #[inline(always)]
+    fn store<V: Simd>(code: CodeIn<B, V>, blocks: &mut &mut [V::Block<B>], i: usize) {
+        if let Some(block) = blocks.get_mut(i) {
             B::store::<V>(code, block);
+        }
+    }
+}
+
+/// Codes of one to four bytes. Each block looks at how many.
+pub(crate) struct Words;
+
+/// One of four, by the size of a code in bytes.
+#[derive(Clone, Copy)]
+pub(crate) enum BySize<A, B, C, D> {
+    One(A),
+    Two(B),
+    Three(C),
+    Four(D),
+}
+
+/// Blocks of codes of `B`.
+type BlocksOf<'a, B, V> = <B as CodeKind>::Blocks<'a, V>;
+type BlocksMutOf<'a, B, V> = <B as CodeKind>::BlocksMut<'a, V>;
+
+impl CodeKind for Words {
+    type Shape = Word;
+    type Blocks<'a, V: Simd> = BySize<
+        BlocksOf<'a, [u8; 1], V>,
+        BlocksOf<'a, [u8; 2], V>,
+        BlocksOf<'a, [u8; 3], V>,
+        BlocksOf<'a, [u8; 4], V>,
+    >;
+    type BlocksMut<'a, V: Simd> = BySize<
+        BlocksMutOf<'a, [u8; 1], V>,
+        BlocksMutOf<'a, [u8; 2], V>,
+        BlocksMutOf<'a, [u8; 3], V>,
+        BlocksMutOf<'a, [u8; 4], V>,
+    >;
+
+    #[inline(always)]
+    fn blocks<V: Simd>(codes: CodeSlice<'_>, count: usize) -> Option<Self::Blocks<'_, V>> {
+        Some(match codes.size {
+            1 => BySize::One(<[u8; 1]>::blocks::<V>(codes, count)?),
+            2 => BySize::Two(<[u8; 2]>::blocks::<V>(codes, count)?),
+            3 => BySize::Three(<[u8; 3]>::blocks::<V>(codes, count)?),
+            _ => BySize::Four(<[u8; 4]>::blocks::<V>(codes, count)?),
+        })
+    }
+    #[inline(always)]
+    fn blocks_mut<V: Simd>(
+        codes: CodeSliceMut<'_>,
+        count: usize,
+    ) -> Option<Self::BlocksMut<'_, V>> {
+        Some(match codes.size {
+            1 => BySize::One(<[u8; 1]>::blocks_mut::<V>(codes, count)?),
+            2 => BySize::Two(<[u8; 2]>::blocks_mut::<V>(codes, count)?),
+            3 => BySize::Three(<[u8; 3]>::blocks_mut::<V>(codes, count)?),
+            _ => BySize::Four(<[u8; 4]>::blocks_mut::<V>(codes, count)?),
+        })
+    }
+    #[inline(always)]
+    fn load<V: Simd>(blocks: Self::Blocks<'_, V>, i: usize) -> Option<V::Int> {
+        match blocks {
+            BySize::One(blocks) => <[u8; 1] as CodeKind>::load::<V>(blocks, i),
+            BySize::Two(blocks) => <[u8; 2] as CodeKind>::load::<V>(blocks, i),
+            BySize::Three(blocks) => <[u8; 3] as CodeKind>::load::<V>(blocks, i),
+            BySize::Four(blocks) => <[u8; 4] as CodeKind>::load::<V>(blocks, i),
+        }
+    }
+    #[inline(always)]
+    fn store<V: Simd>(code: V::Int, blocks: &mut Self::BlocksMut<'_, V>, i: usize) {
+        match blocks {
+            BySize::One(blocks) => <[u8; 1] as CodeKind>::store::<V>(code, blocks, i),
+            BySize::Two(blocks) => <[u8; 2] as CodeKind>::store::<V>(code, blocks, i),
+            BySize::Three(blocks) => <[u8; 3] as CodeKind>::store::<V>(code, blocks, i),
+            BySize::Four(blocks) => <[u8; 4] as CodeKind>::store::<V>(code, blocks, i),
         }
     }
 }
@@ -253,9 +321,9 @@ pub(crate) fn swap_if_big_endian(bytes: &mut [u8], element: usize) {
     }
 }
 
-/// Copies as many bytes as both have.
+/// Copies as many elements as both have.
 #[inline(always)]
-pub(crate) fn copy(from: &[u8], to: &mut [u8]) {
+pub(crate) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
     }

@@ -940,7 +940,7 @@ impl Formula for Floats {
 kernels!(
     SnormXyz: Words,
     Snorm16Xyz: [u8; 6],
-    UnormXyz: Words,
+    UnormXyz: [u8; 3],
     Unorm16Xyz: [u8; 6],
     HalfXyz: [u8; 6],
     BestFit: [u8; 3],

@@ -46,6 +46,12 @@ impl HemiOct {
         [x + y, x - y]
     }
 
+    /// The nearest parameters.
+    #[inline(always)]
+    fn nearest<V: Simd>(self, v: Vec3<V>) -> [V::Int; 2] {
+        map2!(self.project(v), |p| p.round_int())
+    }
+
     /// The code with x or y negated: (x + y, x - y) becomes minus (x - y, x + y) or (x - y, x + y).
     #[inline(always)]
     fn mirror_xy<V: Simd>(self, code: V::Int, x: bool, y: bool) -> V::Int {
@@ -66,7 +72,7 @@ impl Formula for HemiOct {
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
-        self.pair.pack_snorm::<V>(map2!(self.project(v), |p| p.round_int()))
+        self.pair.pack_snorm::<V>(self.nearest(v))
     }
 
     #[inline(always)]
@@ -121,10 +127,15 @@ impl SignedOct {
 
     /// The code of a point of the upper hemisphere or, off the equator, of its mirror image.
     #[inline(always)]
-    fn signed<V: Simd>(self, code: V::Int, lower: V::Mask) -> V::Int {
-        let [u, w] = self.hemisphere.pair.unpack_snorm::<V>(code);
+    fn pack<V: Simd>(self, [u, w]: [V::Int; 2], lower: V::Mask) -> V::Int {
         let lower = lower & u.abs().max(w.abs()).lt(self.hemisphere.max);
-        code | V::Int::select(lower, 1 << self.sign_bit, 0)
+        self.hemisphere.pair.pack_snorm::<V>([u, w]) | V::Int::select(lower, 1 << self.sign_bit, 0)
+    }
+
+    /// [`pack`](Self::pack) of what [`HemiOct`] has packed.
+    #[inline(always)]
+    fn signed<V: Simd>(self, code: V::Int, lower: V::Mask) -> V::Int {
+        self.pack::<V>(self.hemisphere.pair.unpack_snorm::<V>(code), lower)
     }
 
     #[inline(always)]
@@ -138,8 +149,8 @@ impl Formula for SignedOct {
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
-        let code = self.hemisphere.encode(Vec3 { z: v.z.abs(), ..v });
-        self.signed::<V>(code, v.z.lt(0.0))
+        let params = self.hemisphere.nearest(Vec3 { z: v.z.abs(), ..v });
+        self.pack::<V>(params, v.z.lt(0.0))
     }
 
     #[inline(always)]

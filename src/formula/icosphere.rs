@@ -53,8 +53,8 @@ const POINTS: [[f32; 3]; 27] = {
     }
     points
 };
-/// The bits of the components of every vertex.
-static TABLE: [[u32; VERTICES]; 3] = table();
+/// Every vertex.
+static TABLE: [[f32; 3]; VERTICES] = table();
 
 const fn corners() -> [Corner; 27] {
     const WEIGHTS: [[f64; 4]; 9] = [
@@ -139,8 +139,8 @@ const fn mirror_images() -> [[u8; VERTICES]; 3] {
     table
 }
 
-const fn table() -> [[u32; VERTICES]; 3] {
-    let mut table = [[0; VERTICES]; 3];
+const fn table() -> [[f32; 3]; VERTICES] {
+    let mut table = [[0.0; 3]; VERTICES];
     let mut n = 0;
     while n < 27 {
         let Corner { point, code } = CORNERS[n];
@@ -155,7 +155,7 @@ const fn table() -> [[u32; VERTICES]; 3] {
                     }
                     bit += 1;
                 }
-                table[i][code + signs] = c.to_bits();
+                table[code + signs][i] = c;
                 i += 1;
             }
             signs += 1;
@@ -204,8 +204,7 @@ impl Formula for Icosphere {
 
     #[inline(always)]
     fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
-        let index = Self::clamp::<V>(code);
-        map_vec!(Vec3::new(0, 1, 2), |axis: usize| V::from_bits(V::gather(&TABLE[axis], index)))
+        Vec3::from(V::gather3(&TABLE, Self::clamp::<V>(code)))
     }
 
     #[inline(always)]

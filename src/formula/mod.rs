@@ -114,10 +114,13 @@ impl<F: Formula> Source for F {
 }
 
 /// [`Formula::encode`] or [`Formula::encode_precise`].
+#[derive(Clone, Copy)]
 pub(crate) struct Encode<S, const PRECISE: bool>(pub(crate) S);
 /// [`Formula::decode`].
+#[derive(Clone, Copy)]
 pub(crate) struct Decode<S>(pub(crate) S);
 /// [`Formula::mirror`].
+#[derive(Clone, Copy)]
 pub(crate) struct Mirror<S>(pub(crate) S, pub(crate) [bool; 3]);
 
 impl<S: Source, K, const PRECISE: bool> Kernel<Columns<3>, CodeColumn<K>> for Encode<S, PRECISE>
@@ -125,7 +128,7 @@ where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
     #[inline(always)]
-    fn run<V: Simd>(&self, v: [V; 3]) -> Code<S::Formula, V> {
+    fn run<V: Simd>(self, v: [V; 3]) -> Code<S::Formula, V> {
         let formula = self.0.formula();
         let v = formula.prepare(v.into());
         if PRECISE { formula.encode_precise(v) } else { formula.encode(v) }
@@ -137,7 +140,7 @@ where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
     #[inline(always)]
-    fn run<V: Simd>(&self, code: Code<S::Formula, V>) -> [V; 3] {
+    fn run<V: Simd>(self, code: Code<S::Formula, V>) -> [V; 3] {
         self.0.formula().decode::<V>(code).to_array()
     }
 }
@@ -150,7 +153,7 @@ where
     const USE_AVX512: bool = false;
 
     #[inline(always)]
-    fn run<V: Simd>(&self, code: Code<S::Formula, V>) -> Code<S::Formula, V> {
+    fn run<V: Simd>(self, code: Code<S::Formula, V>) -> Code<S::Formula, V> {
         self.0.formula().mirror::<V>(code, self.1)
     }
 }

@@ -26,8 +26,10 @@ pub trait FrameKernels {
 }
 
 /// [`FrameFormula::encode`], and the squared sines of the skew.
+#[derive(Clone, Copy)]
 struct Encode<F, const PRECISE: bool>(F);
 /// [`FrameFormula::decode`].
+#[derive(Clone, Copy)]
 struct Decode<F>(F);
 
 /// Normals and tangents.
@@ -40,7 +42,7 @@ impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
 {
     #[inline(always)]
     fn run<V: Simd>(
-        &self,
+        self,
         ([nx, ny, nz], [tx, ty, tz, handedness]): ([V; 3], [V; 4]),
     ) -> (CodeIn<B, V>, [V; 1]) {
         let frame = Prepared::new(Vec3::new(nx, ny, nz), Vec3::new(tx, ty, tz), handedness);
@@ -51,7 +53,7 @@ impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
 
 impl<F: FrameFormula, B: FrameBytes> Kernel<CodeColumn<B>, Frames> for Decode<F> {
     #[inline(always)]
-    fn run<V: Simd>(&self, code: CodeIn<B, V>) -> ([V; 3], [V; 4]) {
+    fn run<V: Simd>(self, code: CodeIn<B, V>) -> ([V; 3], [V; 4]) {
         let frame = self.0.decode::<V>(B::to_words::<V>(code));
         let Vec3 { x, y, z } = frame.tangent;
         (frame.normal.to_array(), [x, y, z, frame.handedness])
@@ -109,7 +111,7 @@ fn encode_parts(
     let mut sines = [0.0; PART];
     let mut worst = Worst::default();
     let mut first = 0;
-    for codes in codes.parts() {
+    for codes in codes.parts(PART) {
         let len = codes.len();
         let normals = normals.part(first, len, &mut normal_buffer);
         let tangents = tangents.part(first, len, &mut tangent_buffer);
@@ -144,7 +146,7 @@ fn decode_parts(
     kernel: &dyn Fn(CodeSlice<'_>, FrameSlicesMut<'_>),
 ) {
     let (mut normal_buffer, mut tangent_buffer) = ([[0.0; PART]; 3], [[0.0; PART]; 4]);
-    for codes in codes.parts() {
+    for codes in codes.parts(PART) {
         let (normals_part, tangents_part);
         (normals_part, normals) = normals.split_at(codes.len());
         (tangents_part, tangents) = tangents.split_at(codes.len());

@@ -37,15 +37,17 @@ pub trait RotationKernels {
 }
 
 /// [`Rotation::encode`] or [`Rotation::encode_precise`].
+#[derive(Clone, Copy)]
 struct Encode<R, const PRECISE: bool>(R);
 /// [`Rotation::decode`].
+#[derive(Clone, Copy)]
 struct Decode<R>(R);
 
 impl<R: Rotation, K: CodeKind<Shape = R::Shape>, const PRECISE: bool>
     Kernel<Columns<4>, CodeColumn<K>> for Encode<R, PRECISE>
 {
     #[inline(always)]
-    fn run<V: Simd>(&self, q: [V; 4]) -> Code<R, V> {
+    fn run<V: Simd>(self, q: [V; 4]) -> Code<R, V> {
         let q = sanitize4(q);
         if PRECISE { self.0.encode_precise(q) } else { self.0.encode(q) }
     }
@@ -53,7 +55,7 @@ impl<R: Rotation, K: CodeKind<Shape = R::Shape>, const PRECISE: bool>
 
 impl<R: Rotation, K: CodeKind<Shape = R::Shape>> Kernel<CodeColumn<K>, Columns<4>> for Decode<R> {
     #[inline(always)]
-    fn run<V: Simd>(&self, code: Code<R, V>) -> [V; 4] {
+    fn run<V: Simd>(self, code: Code<R, V>) -> [V; 4] {
         self.0.decode::<V>(code)
     }
 }

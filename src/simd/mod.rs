@@ -57,12 +57,6 @@ pub(crate) trait Simd:
     fn split<T: Copy + 'static>(slice: &[T]) -> (&[Self::Block<T>], &[T]);
     /// The whole blocks of a slice, and the rest.
     fn split_mut<T: Copy + 'static>(slice: &mut [T]) -> (&mut [Self::Block<T>], &mut [T]);
-    /// A block whose elements are all `value`.
-    fn fill<T: Copy + 'static>(value: T) -> Self::Block<T>;
-    /// The elements of a block.
-    fn elements<T: Copy + 'static>(block: &Self::Block<T>) -> &[T];
-    /// The elements of a block.
-    fn elements_mut<T: Copy + 'static>(block: &mut Self::Block<T>) -> &mut [T];
 
     /// Runs `f` with the target features that these lanes need. A function over lanes that is not
     /// inlined consists of one call of this.
@@ -111,6 +105,41 @@ pub(crate) trait Simd:
             *column = Self::from_bits(Self::load_int(block, |row| u32::from_ne_bytes(row[i])));
         }
         columns
+    }
+    /// The first `C` floats, in native byte order, of each lane's 16 bytes. `None` if those are.
+    #[inline(always)]
+    fn load_quads<'a, const C: usize>(
+        mut quad: impl FnMut() -> Option<&'a [u8; 16]>,
+    ) -> Option<[Self; C]> {
+        let mut rows = [[0; 16]; MAX_LANES];
+        for row in rows.iter_mut().take(Self::LANES) {
+            *row = *quad()?;
+        }
+        let block = Self::split(&rows).0.first()?;
+        let mut columns = [Self::from(0.0); C];
+        for (i, column) in columns.iter_mut().enumerate() {
+            let words = |row: [u8; 16]| u32::from_ne_bytes(row.as_chunks().0[i]);
+            *column = Self::from_bits(Self::load_int(block, words));
+        }
+        Some(columns)
+    }
+    /// Writes the first `C` floats of each lane's 16 bytes. `None` if those are.
+    #[inline(always)]
+    fn store_quads<'a, const C: usize>(
+        columns: [Self; C],
+        mut quad: impl FnMut() -> Option<&'a mut [u8; 16]>,
+    ) -> Option<()> {
+        let mut rows = [[[0; 4]; C]; MAX_LANES];
+        let block = Self::split_mut(&mut rows).0.first_mut()?;
+        for (i, column) in columns.into_iter().enumerate() {
+            Self::store_int(column.to_bits(), block, |row, bits| row[i] = bits.to_ne_bytes());
+        }
+        for row in rows.iter().take(Self::LANES) {
+            for (to, from) in quad()?.iter_mut().zip(row.as_flattened()) {
+                *to = *from;
+            }
+        }
+        Some(())
     }
     /// Writes the first `C` components of a block of rows as [`load_rows`](Simd::load_rows) reads them.
     #[inline(always)]

@@ -67,18 +67,6 @@ impl Simd for f32 {
         slice.as_chunks_mut()
     }
     #[inline(always)]
-    fn fill<T: Copy + 'static>(value: T) -> [T; 1] {
-        [value]
-    }
-    #[inline(always)]
-    fn elements<T: Copy + 'static>(block: &[T; 1]) -> &[T] {
-        block
-    }
-    #[inline(always)]
-    fn elements_mut<T: Copy + 'static>(block: &mut [T; 1]) -> &mut [T] {
-        block
-    }
-    #[inline(always)]
     fn load(block: &[f32; 1]) -> Self {
         block[0]
     }

@@ -85,18 +85,6 @@ impl Simd for F32x8 {
         slice.as_chunks_mut()
     }
     #[inline(always)]
-    fn fill<T: Copy + 'static>(value: T) -> [T; 8] {
-        [value; 8]
-    }
-    #[inline(always)]
-    fn elements<T: Copy + 'static>(block: &[T; 8]) -> &[T] {
-        block
-    }
-    #[inline(always)]
-    fn elements_mut<T: Copy + 'static>(block: &mut [T; 8]) -> &mut [T] {
-        block
-    }
-    #[inline(always)]
     fn load(block: &[f32; 8]) -> Self {
         F32x8(f32x8::new(*block))
     }

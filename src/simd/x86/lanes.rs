@@ -4,19 +4,48 @@ use core::ops::{Neg, Not};
 
 use fearless_simd::prelude::*;
 use fearless_simd::{
-    Simd as _, SimdMask as _, f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u8x32, u8x64,
-    u32x8, u32x16,
+    Simd as _, SimdMask as _, f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u8x16, u8x32,
+    u8x64, u32x8, u32x16,
 };
 
 use super::CpuLevel;
-use super::shuffle::{Shuffle, dense, spread};
+use super::shuffle::{Shuffle, dense, first, spread};
 use crate::simd::operators::{operators, scalar_operators};
 use crate::simd::stream::x86::Streaming;
 use crate::simd::{Simd, SimdInt, SimdMask, look_up, look_up3, look_up4};
 
+/// Joins vectors of 16 bytes to one of `u8`s.
+macro_rules! join {
+    (8, $token:expr, $quad:expr) => {
+        u8x16::simd_from($token, *$quad()?).combine(u8x16::simd_from($token, *$quad()?))
+    };
+    (16, $token:expr, $quad:expr) => {
+        join!(8, $token, $quad).combine(join!(8, $token, $quad))
+    };
+}
+
+/// Splits a vector of `u8`s, and writes the first bytes of each 16, by the pick.
+macro_rules! split {
+    (4, $bytes:expr, $pick:expr, $quad:expr) => {{
+        let to = $quad()?;
+        let kept = u8x16::simd_from(T::token(), *to);
+        *to = *$bytes.concat_swizzle_dyn(kept, $pick);
+    }};
+    (8, $bytes:expr, $pick:expr, $quad:expr) => {{
+        let (low, high) = $bytes.split();
+        split!(4, low, $pick, $quad);
+        split!(4, high, $pick, $quad);
+    }};
+    (16, $bytes:expr, $pick:expr, $quad:expr) => {{
+        let (low, high) = $bytes.split();
+        split!(8, low, $pick, $quad);
+        split!(8, high, $pick, $quad);
+    }};
+}
+
 macro_rules! lanes {
     (
-        $n:literal,
+        $n:tt,
         $float:ident: $f32s:ident,
         $int:ident: $i32s:ident | $u32s:ident | $u8s:ident,
         $mask:ident: $mask32s:ident
@@ -89,18 +118,6 @@ macro_rules! lanes {
                 slice.as_chunks_mut()
             }
             #[inline(always)]
-            fn fill<B: Copy + 'static>(value: B) -> [B; $n] {
-                [value; $n]
-            }
-            #[inline(always)]
-            fn elements<B: Copy + 'static>(block: &[B; $n]) -> &[B] {
-                block
-            }
-            #[inline(always)]
-            fn elements_mut<B: Copy + 'static>(block: &mut [B; $n]) -> &mut [B] {
-                block
-            }
-            #[inline(always)]
             fn with_target_features<R>(f: impl FnOnce() -> R) -> R {
                 T::token().vectorize(f)
             }
@@ -154,6 +171,22 @@ macro_rules! lanes {
                 )
             }
             #[inline(always)]
+            fn load_quads<'a, const C: usize>(
+                mut quad: impl FnMut() -> Option<&'a [u8; 16]>,
+            ) -> Option<[Self; C]> {
+                let mut columns = [$u8s::splat(T::token(), 0).bitcast::<$u32s<T::Simd>>(); C];
+                for picks in &Shuffle::<4, C, $n, { 4 * $n }>::LOAD {
+                    let row: $u32s<T::Simd> = join!($n, T::token(), quad).bitcast();
+                    for (column, pick) in columns.iter_mut().zip(picks) {
+                        *column = column.concat_swizzle_dyn(row, *pick);
+                    }
+                }
+                Some(columns.map(
+                    #[inline(always)]
+                    |column| $float(column.bitcast()),
+                ))
+            }
+            #[inline(always)]
             fn store_rows<const N: usize, const C: usize>(
                 columns: [Self; C],
                 block: &mut [[[u8; 4]; N]; $n],
@@ -175,6 +208,25 @@ macro_rules! lanes {
                     }
                     *row = *all.bitcast::<$u8s<T::Simd>>();
                 }
+            }
+            #[inline(always)]
+            fn store_quads<'a, const C: usize>(
+                columns: [Self; C],
+                mut quad: impl FnMut() -> Option<&'a mut [u8; 16]>,
+            ) -> Option<()> {
+                let pick = const { first::<C>() };
+                let columns: [$u32s<T::Simd>; C] = columns.map(
+                    #[inline(always)]
+                    |column| column.0.bitcast(),
+                );
+                for picks in &Shuffle::<4, C, $n, { 4 * $n }>::STORE {
+                    let mut all = columns[0];
+                    for (column, pick) in columns[1..].iter().zip(picks) {
+                        all = all.concat_swizzle_dyn(*column, *pick);
+                    }
+                    split!($n, all.bitcast::<$u8s<T::Simd>>(), pick, quad);
+                }
+                Some(())
             }
             #[inline(always)]
             fn load_int<B: Copy + 'static>(block: &[B; $n], f: impl Fn(B) -> u32) -> $int<T> {

@@ -70,6 +70,17 @@ pub(super) const fn dense<const BYTES: usize>() -> [u8; BYTES] {
     picks
 }
 
+/// From two vectors of 16 bytes, the first `C` floats of the first, and the others of the second.
+pub(super) const fn first<const C: usize>() -> [u8; 16] {
+    let mut picks = [0; 16];
+    let mut byte = 0;
+    while byte < 16 {
+        picks[byte] = if byte < 4 * C { byte as u8 } else { byte as u8 + 16 };
+        byte += 1;
+    }
+    picks
+}
+
 /// Picks lane `from` for lane `to`.
 const fn put(picks: &mut [u8], to: usize, from: usize) {
     let mut byte = 0;
