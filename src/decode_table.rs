@@ -47,7 +47,11 @@ use crate::formula::cartesian::SnormXyz;
 #[cfg(feature = "polyhedral")]
 use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
 #[cfg(feature = "disk")]
-use crate::formula::disk::{Concentric, Disk, Ellipse, EqArea, EqDist, Stereo, Unstretched};
+use crate::formula::disk::{
+    Disk,
+    Projection::{EqArea, EqDist, Stereo},
+    Stretch::{Concentric, Ellipse, Plain},
+};
 #[cfg(feature = "cartesian")]
 use crate::formula::xy_only::{XyOnly, XyUnorm};
 #[cfg(feature = "octahedral")]
@@ -56,6 +60,7 @@ use crate::formula::{
     oct::{Central, EqualArea, Oct, Warped},
     octant::Octant,
 };
+use crate::simd::dispatch::DETECTS;
 use crate::simd::{I32x1, Simd, Vec3, look_up3};
 use crate::vector::SoaMut;
 
@@ -142,7 +147,7 @@ impl<'a> FormatTable<'a> {
     /// then.
     pub fn fill(format: Format, vectors: &'a mut [[f32; 3]]) -> Result<Self, LengthMismatch> {
         LengthMismatch::check_table(vectors.len(), Self::len_for(format))?;
-        let decode = |codes: Codes<'_>, v: VectorsMut<'_, 3>| format.kernels().decode(codes, v);
+        let decode = |codes: Codes<'_>, v: VectorsMut<'_, 3>| format.decode_batch(codes, v);
         fill(&decode, format.code_size(), vectors);
         Ok(FormatTable { vectors, format })
     }
@@ -276,6 +281,7 @@ impl<F: Symmetric> Mirrored<'_, F> {
 impl<F: Symmetric> Kernel<CodeColumn<Words>, Columns<3>> for Mirrored<'_, F> {
     // Most of the time goes into loads of single elements.
     const USE_AVX512: bool = false;
+    const USE_WIDE: bool = !DETECTS;
 
     #[inline(always)]
     fn run<V: Simd>(self, code: V::Int) -> [V; 3] {
@@ -314,17 +320,7 @@ octant_kernels!(Oct<Central>, Oct<Warped>, Oct<EqualArea>, HemiOct, Octant);
 #[cfg(feature = "cartesian")]
 octant_kernels!(SnormXyz, XyOnly<XyUnorm>);
 #[cfg(feature = "disk")]
-octant_kernels!(
-    Disk<Stereo, Unstretched>,
-    Disk<Stereo, Concentric>,
-    Disk<Stereo, Ellipse>,
-    Disk<EqArea, Unstretched>,
-    Disk<EqArea, Concentric>,
-    Disk<EqArea, Ellipse>,
-    Disk<EqDist, Unstretched>,
-    Disk<EqDist, Concentric>,
-    Disk<EqDist, Ellipse>,
-);
+octant_kernels!(Disk);
 #[cfg(feature = "polyhedral")]
 octant_kernels!(Cube<Linear>, Cube<WarpedFace>, AngularCube);
 

@@ -14,7 +14,11 @@ use crate::formula::cartesian::{
 #[cfg(feature = "polyhedral")]
 use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
 #[cfg(feature = "disk")]
-use crate::formula::disk::{Concentric, Disk, Ellipse, EqArea, EqDist, Stereo, Unstretched};
+use crate::formula::disk::{
+    Disk,
+    Projection::{EqArea, EqDist, Stereo},
+    Stretch::{Concentric, Ellipse, Plain},
+};
 #[cfg(feature = "polyhedral")]
 use crate::formula::icosphere::Icosphere;
 #[cfg(feature = "cartesian")]
@@ -44,7 +48,7 @@ macro_rules! row_kernels {
                 const { $value }
             }
         }
-        kernels!($name: [u8; size_of::<$code>()]);
+        kernels!($name: [u8; size_of::<$code>()], FORMULA);
         const KERNELS: &$name = &$name;
     };
     ($name:ident, $code:ty, $formula:ty, $value:expr; $flag:ident $($rest:ident)*) => {
@@ -152,10 +156,6 @@ macro_rules! define_codecs {
                     }
                 }
 
-                impl $name {
-                    const KERNELS: &dyn Kernels = KERNELS;
-                }
-
                 #[inline(always)]
                 fn mirror(code: Code, flips: [bool; 3]) -> Code {
                     let code = from_native::<Bytes, Code>(code);
@@ -240,9 +240,16 @@ macro_rules! define_codecs {
                 match self {$($(#[$gate] Format::$name => v.visit::<$name>(),)*)*}
             }
 
-            /// The kernels of this codec.
-            pub(crate) fn kernels(self) -> &'static dyn Kernels {
-                match self {$($(#[$gate] Format::$name => $name::KERNELS,)*)*}
+            pub(super) fn encode_batch(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+                match self {$($(#[$gate] Format::$name => $name::encode_batch(vectors, codes),)*)*}
+            }
+
+            pub(super) fn encode_batch_precise(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+                match self {$($(#[$gate] Format::$name => $name::encode_batch_precise(vectors, codes),)*)*}
+            }
+
+            pub(crate) fn decode_batch(self, codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
+                match self {$($(#[$gate] Format::$name => $name::decode_batch(codes, vectors),)*)*}
             }
         }
     };

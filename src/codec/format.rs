@@ -26,7 +26,7 @@ impl Format {
     pub fn encode(self, v: Soa<'_>, bytes: &mut [u8]) -> Result<(), LengthMismatch> {
         let size = self.code_size();
         LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
-        self.kernels().encode(v.into(), CodesMut::little_endian(bytes, size));
+        self.encode_batch(v.into(), CodesMut::little_endian(bytes, size));
         Ok(())
     }
 
@@ -40,7 +40,7 @@ impl Format {
     pub fn encode_precise(self, v: Soa<'_>, bytes: &mut [u8]) -> Result<(), LengthMismatch> {
         let size = self.code_size();
         LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
-        self.kernels().encode_precise(v.into(), CodesMut::little_endian(bytes, size));
+        self.encode_batch_precise(v.into(), CodesMut::little_endian(bytes, size));
         Ok(())
     }
 
@@ -53,7 +53,7 @@ impl Format {
     pub fn decode(self, bytes: &[u8], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
         let size = self.code_size();
         LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
-        self.kernels().decode(Codes::little_endian(bytes, size), v.into());
+        self.decode_batch(Codes::little_endian(bytes, size), v.into());
         Ok(())
     }
 

@@ -121,83 +121,83 @@ macro_rules! codec_table {
     #[cfg(feature = "disk")]
     "Disk projection, stereographic, as it is: codes outside the disk decode past the equator, where only `encode_precise` \
      uses them. Two snorm [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        Stereo16: u16 = "stereo16", 16 bits, 1.013 / 1.013 degrees, exact "±X", Disk::<Stereo, Unstretched>::new(16), octant;
-        Stereo20: u32 = "stereo20", 20 bits, 0.2518 / 0.2518 degrees, exact "±X", Disk::<Stereo, Unstretched>::new(20);
-        Stereo22: u32 = "stereo22", 22 bits, 0.1258 / 0.1258 degrees, exact "±X", Disk::<Stereo, Unstretched>::new(22);
-        Stereo24: [u8; 3] = "stereo24", 24 bits, 0.06285 / 0.06284 degrees, exact "±X", Disk::<Stereo, Unstretched>::new(24);
-        Stereo32: u32 = "stereo32", 32 bits, 0.003932 / 0.003926 degrees, exact "±X", Disk::<Stereo, Unstretched>::new(32);
+        Stereo16: u16 = "stereo16", 16 bits, 1.013 / 1.013 degrees, exact "±X", Disk::new(Stereo, Plain, 16), octant;
+        Stereo20: u32 = "stereo20", 20 bits, 0.2518 / 0.2518 degrees, exact "±X", Disk::new(Stereo, Plain, 20);
+        Stereo22: u32 = "stereo22", 22 bits, 0.1258 / 0.1258 degrees, exact "±X", Disk::new(Stereo, Plain, 22);
+        Stereo24: [u8; 3] = "stereo24", 24 bits, 0.06285 / 0.06284 degrees, exact "±X", Disk::new(Stereo, Plain, 24);
+        Stereo32: u32 = "stereo32", 32 bits, 0.003932 / 0.003926 degrees, exact "±X", Disk::new(Stereo, Plain, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, stereographic, stretched to the square by mapping circles to squares (Shirley and Chiu). Two snorm \
      [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        StereoConcentric16: u16 = "stereo+concentric16", 16 bits, 1.355 / 0.9926 degrees, exact "±X", Disk::<Stereo, Concentric>::new(16), octant;
-        StereoConcentric20: u32 = "stereo+concentric20", 20 bits, 0.3435 / 0.2468 degrees, exact "±X", Disk::<Stereo, Concentric>::new(20);
-        StereoConcentric22: u32 = "stereo+concentric22", 22 bits, 0.1724 / 0.1233 degrees, exact "±X", Disk::<Stereo, Concentric>::new(22);
-        StereoConcentric24: [u8; 3] = "stereo+concentric24", 24 bits, 0.08642 / 0.06160 degrees, exact "±X", Disk::<Stereo, Concentric>::new(24);
-        StereoConcentric32: u32 = "stereo+concentric32", 32 bits, 0.005428 / 0.003848 degrees, exact "±X", Disk::<Stereo, Concentric>::new(32);
+        StereoConcentric16: u16 = "stereo+concentric16", 16 bits, 1.355 / 0.9926 degrees, exact "±X", Disk::new(Stereo, Concentric, 16), octant;
+        StereoConcentric20: u32 = "stereo+concentric20", 20 bits, 0.3435 / 0.2468 degrees, exact "±X", Disk::new(Stereo, Concentric, 20);
+        StereoConcentric22: u32 = "stereo+concentric22", 22 bits, 0.1724 / 0.1233 degrees, exact "±X", Disk::new(Stereo, Concentric, 22);
+        StereoConcentric24: [u8; 3] = "stereo+concentric24", 24 bits, 0.08642 / 0.06160 degrees, exact "±X", Disk::new(Stereo, Concentric, 24);
+        StereoConcentric32: u32 = "stereo+concentric32", 32 bits, 0.005428 / 0.003848 degrees, exact "±X", Disk::new(Stereo, Concentric, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, stereographic, stretched to the square by elliptical arcs (Nowell). Two snorm \
      [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        StereoEllipse16: u16 = "stereo+ellipse16", 16 bits, 1.013 / 1.013 degrees, exact "±X", Disk::<Stereo, Ellipse>::new(16), octant;
-        StereoEllipse20: u32 = "stereo+ellipse20", 20 bits, 0.2518 / 0.2518 degrees, exact "±X", Disk::<Stereo, Ellipse>::new(20);
-        StereoEllipse22: u32 = "stereo+ellipse22", 22 bits, 0.1258 / 0.1258 degrees, exact "±X", Disk::<Stereo, Ellipse>::new(22);
-        StereoEllipse24: [u8; 3] = "stereo+ellipse24", 24 bits, 0.06285 / 0.06284 degrees, exact "±X", Disk::<Stereo, Ellipse>::new(24);
-        StereoEllipse32: u32 = "stereo+ellipse32", 32 bits, 0.003932 / 0.003926 degrees, exact "±X", Disk::<Stereo, Ellipse>::new(32);
+        StereoEllipse16: u16 = "stereo+ellipse16", 16 bits, 1.013 / 1.013 degrees, exact "±X", Disk::new(Stereo, Ellipse, 16), octant;
+        StereoEllipse20: u32 = "stereo+ellipse20", 20 bits, 0.2518 / 0.2518 degrees, exact "±X", Disk::new(Stereo, Ellipse, 20);
+        StereoEllipse22: u32 = "stereo+ellipse22", 22 bits, 0.1258 / 0.1258 degrees, exact "±X", Disk::new(Stereo, Ellipse, 22);
+        StereoEllipse24: [u8; 3] = "stereo+ellipse24", 24 bits, 0.06285 / 0.06284 degrees, exact "±X", Disk::new(Stereo, Ellipse, 24);
+        StereoEllipse32: u32 = "stereo+ellipse32", 32 bits, 0.003932 / 0.003926 degrees, exact "±X", Disk::new(Stereo, Ellipse, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, equal-area, as it is: codes outside the disk decode past the equator, where only `encode_precise` uses \
      them. Two snorm [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        EqArea16: u16 = "eqarea16", 16 bits, 1.016 / 0.9262 degrees, exact "±X" / "±X ±Z", Disk::<EqArea, Unstretched>::new(16), octant;
-        EqArea20: u32 = "eqarea20", 20 bits, 0.2520 / 0.2316 degrees, exact "±X" / "±X ±Z", Disk::<EqArea, Unstretched>::new(20);
-        EqArea22: u32 = "eqarea22", 22 bits, 0.1258 / 0.1159 degrees, exact "±X" / "±X ±Z", Disk::<EqArea, Unstretched>::new(22);
-        EqArea24: [u8; 3] = "eqarea24", 24 bits, 0.06286 / 0.05791 degrees, exact "±X" / "±X ±Z", Disk::<EqArea, Unstretched>::new(24);
-        EqArea32: u32 = "eqarea32", 32 bits, 0.003947 / 0.003620 degrees, exact "±X" / "±X ±Z", Disk::<EqArea, Unstretched>::new(32);
+        EqArea16: u16 = "eqarea16", 16 bits, 1.016 / 0.9262 degrees, exact "±X" / "±X ±Z", Disk::new(EqArea, Plain, 16), octant;
+        EqArea20: u32 = "eqarea20", 20 bits, 0.2520 / 0.2316 degrees, exact "±X" / "±X ±Z", Disk::new(EqArea, Plain, 20);
+        EqArea22: u32 = "eqarea22", 22 bits, 0.1258 / 0.1159 degrees, exact "±X" / "±X ±Z", Disk::new(EqArea, Plain, 22);
+        EqArea24: [u8; 3] = "eqarea24", 24 bits, 0.06286 / 0.05791 degrees, exact "±X" / "±X ±Z", Disk::new(EqArea, Plain, 24);
+        EqArea32: u32 = "eqarea32", 32 bits, 0.003947 / 0.003620 degrees, exact "±X" / "±X ±Z", Disk::new(EqArea, Plain, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, equal-area, stretched to the square by mapping circles to squares (Shirley and Chiu). Two snorm \
      [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        EqAreaConcentric16: u16 = "eqarea+concentric16", 16 bits, 1.048 / 0.9167 degrees, exact "±X", Disk::<EqArea, Concentric>::new(16), octant;
-        EqAreaConcentric20: u32 = "eqarea+concentric20", 20 bits, 0.2611 / 0.2291 degrees, exact "±X", Disk::<EqArea, Concentric>::new(20);
-        EqAreaConcentric22: u32 = "eqarea+concentric22", 22 bits, 0.1305 / 0.1146 degrees, exact "±X", Disk::<EqArea, Concentric>::new(22);
-        EqAreaConcentric24: [u8; 3] = "eqarea+concentric24", 24 bits, 0.06522 / 0.05726 degrees, exact "±X", Disk::<EqArea, Concentric>::new(24);
-        EqAreaConcentric32: u32 = "eqarea+concentric32", 32 bits, 0.004099 / 0.003579 degrees, exact "±X", Disk::<EqArea, Concentric>::new(32);
+        EqAreaConcentric16: u16 = "eqarea+concentric16", 16 bits, 1.048 / 0.9167 degrees, exact "±X", Disk::new(EqArea, Concentric, 16), octant;
+        EqAreaConcentric20: u32 = "eqarea+concentric20", 20 bits, 0.2611 / 0.2291 degrees, exact "±X", Disk::new(EqArea, Concentric, 20);
+        EqAreaConcentric22: u32 = "eqarea+concentric22", 22 bits, 0.1305 / 0.1146 degrees, exact "±X", Disk::new(EqArea, Concentric, 22);
+        EqAreaConcentric24: [u8; 3] = "eqarea+concentric24", 24 bits, 0.06522 / 0.05726 degrees, exact "±X", Disk::new(EqArea, Concentric, 24);
+        EqAreaConcentric32: u32 = "eqarea+concentric32", 32 bits, 0.004099 / 0.003579 degrees, exact "±X", Disk::new(EqArea, Concentric, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, equal-area, stretched to the square by elliptical arcs (Nowell). Two snorm \
      [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        EqAreaEllipse16: u16 = "eqarea+ellipse16", 16 bits, 0.9213 / 0.9131 degrees, exact "±X", Disk::<EqArea, Ellipse>::new(16), octant;
-        EqAreaEllipse20: u32 = "eqarea+ellipse20", 20 bits, 0.2296 / 0.2283 degrees, exact "±X", Disk::<EqArea, Ellipse>::new(20);
-        EqAreaEllipse22: u32 = "eqarea+ellipse22", 22 bits, 0.1148 / 0.1141 degrees, exact "±X", Disk::<EqArea, Ellipse>::new(22);
-        EqAreaEllipse24: [u8; 3] = "eqarea+ellipse24", 24 bits, 0.05735 / 0.05705 degrees, exact "±X", Disk::<EqArea, Ellipse>::new(24);
-        EqAreaEllipse32: u32 = "eqarea+ellipse32", 32 bits, 0.003604 / 0.003566 degrees, exact "±X", Disk::<EqArea, Ellipse>::new(32);
+        EqAreaEllipse16: u16 = "eqarea+ellipse16", 16 bits, 0.9213 / 0.9131 degrees, exact "±X", Disk::new(EqArea, Ellipse, 16), octant;
+        EqAreaEllipse20: u32 = "eqarea+ellipse20", 20 bits, 0.2296 / 0.2283 degrees, exact "±X", Disk::new(EqArea, Ellipse, 20);
+        EqAreaEllipse22: u32 = "eqarea+ellipse22", 22 bits, 0.1148 / 0.1141 degrees, exact "±X", Disk::new(EqArea, Ellipse, 22);
+        EqAreaEllipse24: [u8; 3] = "eqarea+ellipse24", 24 bits, 0.05735 / 0.05705 degrees, exact "±X", Disk::new(EqArea, Ellipse, 24);
+        EqAreaEllipse32: u32 = "eqarea+ellipse32", 32 bits, 0.003604 / 0.003566 degrees, exact "±X", Disk::new(EqArea, Ellipse, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, equidistant, as it is: codes outside the disk decode past the equator, where only `encode_precise` uses \
      them. Two snorm [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        EqDist16: u16 = "eqdist16", 16 bits, 0.7955 / 0.7955 degrees, exact "±X", Disk::<EqDist, Unstretched>::new(16), octant;
-        EqDist20: u32 = "eqdist20", 20 bits, 0.1978 / 0.1978 degrees, exact "±X", Disk::<EqDist, Unstretched>::new(20);
-        EqDist22: u32 = "eqdist22", 22 bits, 0.09877 / 0.09876 degrees, exact "±X", Disk::<EqDist, Unstretched>::new(22);
-        EqDist24: [u8; 3] = "eqdist24", 24 bits, 0.04937 / 0.04936 degrees, exact "±X", Disk::<EqDist, Unstretched>::new(24);
-        EqDist32: u32 = "eqdist32", 32 bits, 0.003098 / 0.003086 degrees, exact "±X", Disk::<EqDist, Unstretched>::new(32);
+        EqDist16: u16 = "eqdist16", 16 bits, 0.7955 / 0.7955 degrees, exact "±X", Disk::new(EqDist, Plain, 16), octant;
+        EqDist20: u32 = "eqdist20", 20 bits, 0.1978 / 0.1978 degrees, exact "±X", Disk::new(EqDist, Plain, 20);
+        EqDist22: u32 = "eqdist22", 22 bits, 0.09877 / 0.09876 degrees, exact "±X", Disk::new(EqDist, Plain, 22);
+        EqDist24: [u8; 3] = "eqdist24", 24 bits, 0.04937 / 0.04936 degrees, exact "±X", Disk::new(EqDist, Plain, 24);
+        EqDist32: u32 = "eqdist32", 32 bits, 0.003098 / 0.003086 degrees, exact "±X", Disk::new(EqDist, Plain, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, equidistant, stretched to the square by mapping circles to squares (Shirley and Chiu). Two snorm \
      [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        EqDistConcentric16: u16 = "eqdist+concentric16", 16 bits, 1.078 / 0.7798 degrees, exact "±X", Disk::<EqDist, Concentric>::new(16), octant;
-        EqDistConcentric20: u32 = "eqdist+concentric20", 20 bits, 0.2710 / 0.1938 degrees, exact "±X", Disk::<EqDist, Concentric>::new(20);
-        EqDistConcentric22: u32 = "eqdist+concentric22", 22 bits, 0.1358 / 0.09680 degrees, exact "±X", Disk::<EqDist, Concentric>::new(22);
-        EqDistConcentric24: [u8; 3] = "eqdist+concentric24", 24 bits, 0.06799 / 0.04838 degrees, exact "±X", Disk::<EqDist, Concentric>::new(24);
-        EqDistConcentric32: u32 = "eqdist+concentric32", 32 bits, 0.004264 / 0.003022 degrees, exact "±X", Disk::<EqDist, Concentric>::new(32);
+        EqDistConcentric16: u16 = "eqdist+concentric16", 16 bits, 1.078 / 0.7798 degrees, exact "±X", Disk::new(EqDist, Concentric, 16), octant;
+        EqDistConcentric20: u32 = "eqdist+concentric20", 20 bits, 0.2710 / 0.1938 degrees, exact "±X", Disk::new(EqDist, Concentric, 20);
+        EqDistConcentric22: u32 = "eqdist+concentric22", 22 bits, 0.1358 / 0.09680 degrees, exact "±X", Disk::new(EqDist, Concentric, 22);
+        EqDistConcentric24: [u8; 3] = "eqdist+concentric24", 24 bits, 0.06799 / 0.04838 degrees, exact "±X", Disk::new(EqDist, Concentric, 24);
+        EqDistConcentric32: u32 = "eqdist+concentric32", 32 bits, 0.004264 / 0.003022 degrees, exact "±X", Disk::new(EqDist, Concentric, 32);
     }
     #[cfg(feature = "disk")]
     "Disk projection, equidistant, stretched to the square by elliptical arcs (Nowell). Two snorm \
      [parameters](Codec#bit-layout), of which the first is sgn(z) (u + 1) / 2." {
-        EqDistEllipse16: u16 = "eqdist+ellipse16", 16 bits, 0.7955 / 0.7955 degrees, exact "±X", Disk::<EqDist, Ellipse>::new(16), octant;
-        EqDistEllipse20: u32 = "eqdist+ellipse20", 20 bits, 0.1978 / 0.1978 degrees, exact "±X", Disk::<EqDist, Ellipse>::new(20);
-        EqDistEllipse22: u32 = "eqdist+ellipse22", 22 bits, 0.09877 / 0.09876 degrees, exact "±X", Disk::<EqDist, Ellipse>::new(22);
-        EqDistEllipse24: [u8; 3] = "eqdist+ellipse24", 24 bits, 0.04937 / 0.04936 degrees, exact "±X", Disk::<EqDist, Ellipse>::new(24);
-        EqDistEllipse32: u32 = "eqdist+ellipse32", 32 bits, 0.003105 / 0.003086 degrees, exact "±X", Disk::<EqDist, Ellipse>::new(32);
+        EqDistEllipse16: u16 = "eqdist+ellipse16", 16 bits, 0.7955 / 0.7955 degrees, exact "±X", Disk::new(EqDist, Ellipse, 16), octant;
+        EqDistEllipse20: u32 = "eqdist+ellipse20", 20 bits, 0.1978 / 0.1978 degrees, exact "±X", Disk::new(EqDist, Ellipse, 20);
+        EqDistEllipse22: u32 = "eqdist+ellipse22", 22 bits, 0.09877 / 0.09876 degrees, exact "±X", Disk::new(EqDist, Ellipse, 22);
+        EqDistEllipse24: [u8; 3] = "eqdist+ellipse24", 24 bits, 0.04937 / 0.04936 degrees, exact "±X", Disk::new(EqDist, Ellipse, 24);
+        EqDistEllipse32: u32 = "eqdist+ellipse32", 32 bits, 0.003105 / 0.003086 degrees, exact "±X", Disk::new(EqDist, Ellipse, 32);
     }
     #[cfg(feature = "spherical")]
     "Lat-long: as many points on each parallel as there are parallels. The code is an index, row by row from +Z; the last \

@@ -803,6 +803,7 @@ struct FoundPoint<V: Simd> {
 
 impl<G: Grid> Formula for Cartesian<G> {
     type Shape = G::Shape;
+    const PRECISE_ON_ALL_LANES: bool = true;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> Code<Self, V> {
@@ -938,11 +939,11 @@ impl Formula for Floats {
 }
 
 kernels!(
-    SnormXyz: Words,
-    Snorm16Xyz: [u8; 6],
-    UnormXyz: [u8; 3],
-    Unorm16Xyz: [u8; 6],
-    HalfXyz: [u8; 6],
-    BestFit: [u8; 3],
-    Floats: [u8; 12],
+    SnormXyz: Words;
+    Snorm16Xyz: [u8; 6];
+    UnormXyz: [u8; 3];
+    Unorm16Xyz: [u8; 6];
+    HalfXyz: [u8; 6];
+    BestFit: [u8; 3], BestFit::UNORM8;
+    Floats: [u8; 12];
 );

@@ -394,4 +394,4 @@ fn div_rem<V: Simd, const D: i32>(n: V::Int) -> (V::Int, V::Int) {
     (high.shl(16) + low, rest - low * D)
 }
 
-kernels!(Cube<Linear>: Words, Cube<WarpedFace>: Words, AngularCube: Words);
+kernels!(Cube<Linear>: Words; Cube<WarpedFace>: Words; AngularCube: Words);

@@ -69,6 +69,7 @@ impl HemiOct {
 impl Formula for HemiOct {
     type Shape = Word;
     const HEMISPHERE: bool = true;
+    const PRECISE_ON_ALL_LANES: bool = true;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
@@ -173,4 +174,4 @@ impl Formula for SignedOct {
     }
 }
 
-kernels!(HemiOct: Words, SignedOct: Words);
+kernels!(HemiOct: Words; SignedOct: Words);

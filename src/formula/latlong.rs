@@ -240,4 +240,4 @@ impl Parallels for Adaptive {
     }
 }
 
-kernels!(LatLong<Uniform>: Words, LatLong<Adaptive>: Words);
+kernels!(LatLong<Uniform>: Words; LatLong<Adaptive>: Words);

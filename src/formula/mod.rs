@@ -33,6 +33,7 @@ use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{CodeKind, CodeShape, ShapeIn, Word};
 use crate::batch::{Kernel, map, run};
+use crate::simd::dispatch::DETECTS;
 use crate::simd::{Simd, Vec3};
 use support::sanitize::sanitize;
 use support::sign::mirror_vector;
@@ -46,6 +47,9 @@ pub(crate) trait Formula: Copy + Send + Sync + 'static {
     type Shape: CodeShape;
     /// Whether only z >= 0 is represented. z < 0 is then taken as 0.
     const HEMISPHERE: bool = false;
+    /// Whether `encode_precise` of many vectors is compiled for every kind of lanes. Searches are long
+    /// to compile.
+    const PRECISE_ON_ALL_LANES: bool = false;
 
     /// Turns any input into a direction that `encode` understands: see [`sanitize`].
     #[inline(always)]
@@ -127,6 +131,9 @@ impl<S: Source, K, const PRECISE: bool> Kernel<Columns<3>, CodeColumn<K>> for En
 where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
+    const USE_AVX512: bool = !PRECISE || S::Formula::PRECISE_ON_ALL_LANES;
+    const USE_WIDE: bool = !PRECISE || S::Formula::PRECISE_ON_ALL_LANES || !DETECTS;
+
     #[inline(always)]
     fn run<V: Simd>(self, v: [V; 3]) -> Code<S::Formula, V> {
         let formula = self.0.formula();
@@ -151,6 +158,7 @@ where
 {
     // The least used of the kernels would be half of what all of them cost to compile.
     const USE_AVX512: bool = false;
+    const USE_WIDE: bool = !DETECTS;
 
     #[inline(always)]
     fn run<V: Simd>(self, code: Code<S::Formula, V>) -> Code<S::Formula, V> {
@@ -171,9 +179,10 @@ pub trait Kernels: Sync + 'static {
     fn mirror(&self, codes: CodesMut<'_>, flips: [bool; 3]);
 }
 
-/// Implements [`Kernels`] for formulas, or for codecs, by the kind of their codes: `Words`, or bytes.
+/// Implements [`Kernels`] by the kind of the codes: `Words`, or bytes. A second formula does what
+/// few need, so that it is not compiled twice.
 macro_rules! kernels {
-    ($($source:ty: $codes:ty),* $(,)?) => { $(
+    ($($source:ty: $codes:ty $(, $formula:expr)?);* $(;)?) => { $(
         impl $crate::formula::Kernels for $source {
             #[inline(never)]
             fn encode(
@@ -184,14 +193,6 @@ macro_rules! kernels {
                 $crate::formula::encode::<_, $codes, false>(*self, vectors, codes);
             }
             #[inline(never)]
-            fn encode_precise(
-                &self,
-                vectors: $crate::batch::layout::Vectors<'_, 3>,
-                codes: $crate::batch::layout::CodesMut<'_>,
-            ) {
-                $crate::formula::encode::<_, $codes, true>(*self, vectors, codes);
-            }
-            #[inline(never)]
             fn decode(
                 &self,
                 codes: $crate::batch::layout::Codes<'_>,
@@ -199,12 +200,37 @@ macro_rules! kernels {
             ) {
                 $crate::formula::decode::<_, $codes>(*self, codes, vectors);
             }
-            #[inline(never)]
-            fn mirror(&self, codes: $crate::batch::layout::CodesMut<'_>, flips: [bool; 3]) {
-                $crate::formula::mirror::<_, $codes>(*self, codes, flips);
-            }
+            kernels!(@rare $codes $(, $formula)?);
         }
     )* };
+    (@rare $codes:ty) => {
+        #[inline(never)]
+        fn encode_precise(
+            &self,
+            vectors: $crate::batch::layout::Vectors<'_, 3>,
+            codes: $crate::batch::layout::CodesMut<'_>,
+        ) {
+            $crate::formula::encode::<_, $codes, true>(*self, vectors, codes);
+        }
+        #[inline(never)]
+        fn mirror(&self, codes: $crate::batch::layout::CodesMut<'_>, flips: [bool; 3]) {
+            $crate::formula::mirror::<_, $codes>(*self, codes, flips);
+        }
+    };
+    (@rare $codes:ty, $formula:expr) => {
+        #[inline]
+        fn encode_precise(
+            &self,
+            vectors: $crate::batch::layout::Vectors<'_, 3>,
+            codes: $crate::batch::layout::CodesMut<'_>,
+        ) {
+            $crate::formula::Kernels::encode_precise(&$formula, vectors, codes);
+        }
+        #[inline]
+        fn mirror(&self, codes: $crate::batch::layout::CodesMut<'_>, flips: [bool; 3]) {
+            $crate::formula::Kernels::mirror(&$formula, codes, flips);
+        }
+    };
 }
 pub(crate) use kernels;
 

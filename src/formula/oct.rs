@@ -248,6 +248,7 @@ impl<P: Projection> Oct<P> {
 
 impl<P: Projection> Formula for Oct<P> {
     type Shape = Word;
+    const PRECISE_ON_ALL_LANES: bool = true;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
@@ -478,4 +479,4 @@ impl Formula for OctUnorm {
     }
 }
 
-kernels!(Oct<Central>: Words, Oct<Warped>: Words, Oct<EqualArea>: Words, OctUnorm: Words);
+kernels!(Oct<Central>: Words; Oct<Warped>: Words; Oct<EqualArea>: Words; OctUnorm: Words);

@@ -55,6 +55,7 @@ impl Spherical {
 
 impl Formula for Spherical {
     type Shape = Word;
+    const PRECISE_ON_ALL_LANES: bool = true;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {

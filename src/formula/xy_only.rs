@@ -358,4 +358,4 @@ impl Symmetric for XyOnly<XyUnorm> {
     }
 }
 
-kernels!(XyOnly<XyUnorm>: Words, XyOnly<XyHalf>: Words);
+kernels!(XyOnly<XyUnorm>: Words; XyOnly<XyHalf>: Words);

@@ -5,13 +5,18 @@ use super::wide::F32x8;
 
 /// A loop over many elements.
 pub(crate) trait BatchLoop: Sized {
-    /// Whether `wide`'s eight lanes are faster than one.
+    /// Whether `wide`'s eight lanes have a form of its own. Without one, one lane runs.
     const USE_WIDE: bool = true;
-    /// Whether AVX-512 has a form of its own. Without one it costs less to compile, and AVX2's runs.
+    /// Whether AVX-512 has a form of its own. Without one, AVX2's runs.
     const USE_AVX512: bool = true;
 
     fn run<V: Simd>(self);
 }
+
+/// Whether the processor is asked what it has. `wide`'s lanes are then for those without AVX2, which
+/// few have.
+pub(crate) const DETECTS: bool =
+    cfg!(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")));
 
 /// Whether `wide`'s eight lanes compile to SIMD here. Where they do not, one lane is faster and
 /// smaller, and gives the same bits.

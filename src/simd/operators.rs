@@ -2,11 +2,11 @@
 
 /// Operators between two vectors.
 macro_rules! operators {
-    ($generics:tt $type:ty: $($trait:ident $method:ident),*) => {
-        $(operators!(@one $generics $type, $trait $method);)*
+    ($type:ty: $($trait:ident $method:ident),*) => {
+        $(operators!(@one $type, $trait $method);)*
     };
-    (@one [$($generics:tt)*] $type:ty, $trait:ident $method:ident) => {
-        impl<$($generics)*> core::ops::$trait for $type {
+    (@one $type:ty, $trait:ident $method:ident) => {
+        impl core::ops::$trait for $type {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
@@ -18,11 +18,11 @@ macro_rules! operators {
 
 /// Operators between a vector and a number on its right.
 macro_rules! scalar_operators {
-    ($generics:tt $type:ty, $scalar:ty: $($trait:ident $method:ident),*) => {
-        $(scalar_operators!(@one $generics $type, $scalar, $trait $method);)*
+    ($type:ty, $scalar:ty: $($trait:ident $method:ident),*) => {
+        $(scalar_operators!(@one $type, $scalar, $trait $method);)*
     };
-    (@one [$($generics:tt)*] $type:ty, $scalar:ty, $trait:ident $method:ident) => {
-        impl<$($generics)*> core::ops::$trait<$scalar> for $type {
+    (@one $type:ty, $scalar:ty, $trait:ident $method:ident) => {
+        impl core::ops::$trait<$scalar> for $type {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: $scalar) -> Self {

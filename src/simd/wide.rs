@@ -26,11 +26,11 @@ pub(crate) struct I32x8(i32x8);
 #[repr(transparent)]
 pub(crate) struct Mask32x8(i32x8);
 
-operators!([] F32x8: Add add, Sub sub, Mul mul, Div div);
-operators!([] I32x8: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
-operators!([] Mask32x8: BitAnd bitand, BitOr bitor);
-scalar_operators!([] F32x8, f32: Add add, Sub sub, Mul mul, Div div);
-scalar_operators!([] I32x8, i32: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
+operators!(F32x8: Add add, Sub sub, Mul mul, Div div);
+operators!(I32x8: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
+operators!(Mask32x8: BitAnd bitand, BitOr bitor);
+scalar_operators!(F32x8, f32: Add add, Sub sub, Mul mul, Div div);
+scalar_operators!(I32x8, i32: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
 
 impl From<f32> for F32x8 {
     #[inline(always)]

@@ -4,11 +4,11 @@ use core::ops::{Neg, Not};
 
 use fearless_simd::prelude::*;
 use fearless_simd::{
-    Simd as _, SimdMask as _, f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16, u8x16, u8x32,
-    u8x64, u32x8, u32x16,
+    Avx2, Avx512, Simd as _, SimdMask as _, f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16,
+    u8x16, u8x32, u8x64, u32x8, u32x16,
 };
 
-use super::CpuLevel;
+use super::Token;
 use super::shuffle::{Shuffle, dense, first, spread};
 use crate::simd::operators::{operators, scalar_operators};
 use crate::simd::stream::x86::Streaming;
@@ -26,60 +26,60 @@ macro_rules! join {
 
 /// Splits a vector of `u8`s, and writes the first bytes of each 16, by the pick.
 macro_rules! split {
-    (4, $bytes:expr, $pick:expr, $quad:expr) => {{
+    (4, $token:expr, $bytes:expr, $pick:expr, $quad:expr) => {{
         let to = $quad()?;
-        let kept = u8x16::simd_from(T::token(), *to);
+        let kept = u8x16::simd_from($token, *to);
         *to = *$bytes.concat_swizzle_dyn(kept, $pick);
     }};
-    (8, $bytes:expr, $pick:expr, $quad:expr) => {{
+    (8, $token:expr, $bytes:expr, $pick:expr, $quad:expr) => {{
         let (low, high) = $bytes.split();
-        split!(4, low, $pick, $quad);
-        split!(4, high, $pick, $quad);
+        split!(4, $token, low, $pick, $quad);
+        split!(4, $token, high, $pick, $quad);
     }};
-    (16, $bytes:expr, $pick:expr, $quad:expr) => {{
+    (16, $token:expr, $bytes:expr, $pick:expr, $quad:expr) => {{
         let (low, high) = $bytes.split();
-        split!(8, low, $pick, $quad);
-        split!(8, high, $pick, $quad);
+        split!(8, $token, low, $pick, $quad);
+        split!(8, $token, high, $pick, $quad);
     }};
 }
 
 macro_rules! lanes {
     (
-        $n:tt,
+        $n:tt, $level:ident,
         $float:ident: $f32s:ident,
         $int:ident: $i32s:ident | $u32s:ident | $u8s:ident,
         $mask:ident: $mask32s:ident
     ) => {
         #[derive(Clone, Copy)]
-        pub(crate) struct $float<T: CpuLevel>($f32s<T::Simd>);
+        pub(crate) struct $float($f32s<$level>);
         #[derive(Clone, Copy)]
-        pub(crate) struct $int<T: CpuLevel>($i32s<T::Simd>);
+        pub(crate) struct $int($i32s<$level>);
         #[derive(Clone, Copy)]
-        pub(crate) struct $mask<T: CpuLevel>($mask32s<T::Simd>);
+        pub(crate) struct $mask($mask32s<$level>);
 
-        operators!([T: CpuLevel] $float<T>: Add add, Sub sub, Mul mul, Div div);
-        operators!([T: CpuLevel] $int<T>: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
-        operators!([T: CpuLevel] $mask<T>: BitAnd bitand, BitOr bitor);
-        scalar_operators!([T: CpuLevel] $float<T>, f32: Add add, Sub sub, Mul mul, Div div);
+        operators!($float: Add add, Sub sub, Mul mul, Div div);
+        operators!($int: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
+        operators!($mask: BitAnd bitand, BitOr bitor);
+        scalar_operators!($float, f32: Add add, Sub sub, Mul mul, Div div);
         scalar_operators!(
-            [T: CpuLevel] $int<T>, i32: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor
+            $int, i32: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor
         );
 
-        impl<T: CpuLevel> From<f32> for $float<T> {
+        impl From<f32> for $float {
             #[inline(always)]
             fn from(x: f32) -> Self {
-                $float($f32s::splat(T::token(), x))
+                $float($f32s::splat($level::assumed(), x))
             }
         }
 
-        impl<T: CpuLevel> From<i32> for $int<T> {
+        impl From<i32> for $int {
             #[inline(always)]
             fn from(i: i32) -> Self {
-                $int($i32s::splat(T::token(), i))
+                $int($i32s::splat($level::assumed(), i))
             }
         }
 
-        impl<T: CpuLevel> Neg for $float<T> {
+        impl Neg for $float {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
@@ -87,7 +87,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: CpuLevel> Neg for $int<T> {
+        impl Neg for $int {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
@@ -95,7 +95,7 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: CpuLevel> Not for $mask<T> {
+        impl Not for $mask {
             type Output = Self;
             #[inline(always)]
             fn not(self) -> Self {
@@ -103,9 +103,9 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: CpuLevel<Simd: Streaming<$n>>> Simd for $float<T> {
-            type Int = $int<T>;
-            type Mask = $mask<T>;
+        impl Simd for $float {
+            type Int = $int;
+            type Mask = $mask;
             type Block<B: Copy + 'static> = [B; $n];
             const LANES: usize = $n;
 
@@ -119,11 +119,11 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn with_target_features<R>(f: impl FnOnce() -> R) -> R {
-                T::token().vectorize(f)
+                $level::assumed().vectorize(f)
             }
             #[inline(always)]
             fn load(block: &[f32; $n]) -> Self {
-                $float($f32s::simd_from(T::token(), *block))
+                $float($f32s::simd_from($level::assumed(), *block))
             }
             #[inline(always)]
             fn store(self, block: &mut [f32; $n]) {
@@ -131,10 +131,10 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn stream(self, block: &mut [f32; $n]) {
-                T::token().stream(*self.0, block);
+                $level::assumed().stream(*self.0, block);
             }
             #[inline(always)]
-            fn load_bytes(block: &[[u8; 3]; $n]) -> $int<T> {
+            fn load_bytes(block: &[[u8; 3]; $n]) -> $int {
                 // AVX2 has no permutation of all bytes.
                 if $n == 8 {
                     return Self::load_int(block, |[a, b, c]| u32::from_le_bytes([a, b, c, 0]));
@@ -144,11 +144,11 @@ macro_rules! lanes {
                     *to = *from;
                 }
                 let pick: [u8; 4 * $n] = const { spread() };
-                $int($u8s::simd_from(T::token(), bytes).swizzle_dyn_precise(pick).bitcast())
+                $int($u8s::simd_from($level::assumed(), bytes).swizzle_dyn_precise(pick).bitcast())
             }
             #[inline(always)]
-            fn store_bytes(int: $int<T>, block: &mut [[u8; 3]; $n]) {
-                let bytes: $u8s<T::Simd> = int.0.bitcast();
+            fn store_bytes(int: $int, block: &mut [[u8; 3]; $n]) {
+                let bytes: $u8s<$level> = int.0.bitcast();
                 let pick: [u8; 4 * $n] = const { dense() };
                 for (to, from) in block.as_flattened_mut().iter_mut().zip(*bytes.swizzle_dyn(pick))
                 {
@@ -157,10 +157,10 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn load_rows<const N: usize, const C: usize>(block: &[[[u8; 4]; N]; $n]) -> [Self; C] {
-                let mut columns = [$u8s::splat(T::token(), 0).bitcast::<$u32s<T::Simd>>(); C];
+                let mut columns = [$u8s::splat($level::assumed(), 0).bitcast::<$u32s<$level>>(); C];
                 let (rows, _) = block.as_flattened().as_flattened().as_chunks();
                 for (row, picks) in rows.iter().zip(&Shuffle::<N, C, $n, { 4 * $n }>::LOAD) {
-                    let row: $u32s<T::Simd> = $u8s::simd_from(T::token(), *row).bitcast();
+                    let row: $u32s<$level> = $u8s::simd_from($level::assumed(), *row).bitcast();
                     for (column, pick) in columns.iter_mut().zip(picks) {
                         *column = column.concat_swizzle_dyn(row, *pick);
                     }
@@ -174,9 +174,9 @@ macro_rules! lanes {
             fn load_quads<'a, const C: usize>(
                 mut quad: impl FnMut() -> Option<&'a [u8; 16]>,
             ) -> Option<[Self; C]> {
-                let mut columns = [$u8s::splat(T::token(), 0).bitcast::<$u32s<T::Simd>>(); C];
+                let mut columns = [$u8s::splat($level::assumed(), 0).bitcast::<$u32s<$level>>(); C];
                 for picks in &Shuffle::<4, C, $n, { 4 * $n }>::LOAD {
-                    let row: $u32s<T::Simd> = join!($n, T::token(), quad).bitcast();
+                    let row: $u32s<$level> = join!($n, $level::assumed(), quad).bitcast();
                     for (column, pick) in columns.iter_mut().zip(picks) {
                         *column = column.concat_swizzle_dyn(row, *pick);
                     }
@@ -191,7 +191,7 @@ macro_rules! lanes {
                 columns: [Self; C],
                 block: &mut [[[u8; 4]; N]; $n],
             ) {
-                let columns: [$u32s<T::Simd>; C] = columns.map(
+                let columns: [$u32s<$level>; C] = columns.map(
                     #[inline(always)]
                     |column| column.0.bitcast(),
                 );
@@ -202,11 +202,11 @@ macro_rules! lanes {
                         all = all.concat_swizzle_dyn(*column, *pick);
                     }
                     if N > C {
-                        let kept: $u32s<T::Simd> =
-                            $u8s::simd_from(T::token(), *row).bitcast();
+                        let kept: $u32s<$level> =
+                            $u8s::simd_from($level::assumed(), *row).bitcast();
                         all = all.concat_swizzle_dyn(kept, picks[C - 1]);
                     }
-                    *row = *all.bitcast::<$u8s<T::Simd>>();
+                    *row = *all.bitcast::<$u8s<$level>>();
                 }
             }
             #[inline(always)]
@@ -215,7 +215,7 @@ macro_rules! lanes {
                 mut quad: impl FnMut() -> Option<&'a mut [u8; 16]>,
             ) -> Option<()> {
                 let pick = const { first::<C>() };
-                let columns: [$u32s<T::Simd>; C] = columns.map(
+                let columns: [$u32s<$level>; C] = columns.map(
                     #[inline(always)]
                     |column| column.0.bitcast(),
                 );
@@ -224,21 +224,21 @@ macro_rules! lanes {
                     for (column, pick) in columns[1..].iter().zip(picks) {
                         all = all.concat_swizzle_dyn(*column, *pick);
                     }
-                    split!($n, all.bitcast::<$u8s<T::Simd>>(), pick, quad);
+                    split!($n, $level::assumed(), all.bitcast::<$u8s<$level>>(), pick, quad);
                 }
                 Some(())
             }
             #[inline(always)]
-            fn load_int<B: Copy + 'static>(block: &[B; $n], f: impl Fn(B) -> u32) -> $int<T> {
+            fn load_int<B: Copy + 'static>(block: &[B; $n], f: impl Fn(B) -> u32) -> $int {
                 let mut ints = [0; $n];
                 for (i, &b) in ints.iter_mut().zip(block) {
                     *i = f(b) as i32;
                 }
-                $int($i32s::simd_from(T::token(), ints))
+                $int($i32s::simd_from($level::assumed(), ints))
             }
             #[inline(always)]
             fn store_int<B: Copy + 'static>(
-                int: $int<T>,
+                int: $int,
                 block: &mut [B; $n],
                 f: impl Fn(&mut B, u32),
             ) {
@@ -247,39 +247,39 @@ macro_rules! lanes {
                 }
             }
             #[inline(always)]
-            fn from_bits(bits: $int<T>) -> Self {
+            fn from_bits(bits: $int) -> Self {
                 $float(bits.0.bitcast())
             }
             #[inline(always)]
-            fn to_bits(self) -> $int<T> {
+            fn to_bits(self) -> $int {
                 $int(self.0.bitcast())
             }
             #[inline(always)]
-            fn from_int(i: $int<T>) -> Self {
+            fn from_int(i: $int) -> Self {
                 $float($f32s::float_from(i.0))
             }
             #[inline(always)]
-            fn lt(self, other: impl Into<Self>) -> $mask<T> {
+            fn lt(self, other: impl Into<Self>) -> $mask {
                 $mask(self.0.simd_lt(other.into().0))
             }
             #[inline(always)]
-            fn le(self, other: impl Into<Self>) -> $mask<T> {
+            fn le(self, other: impl Into<Self>) -> $mask {
                 $mask(self.0.simd_le(other.into().0))
             }
             #[inline(always)]
-            fn select(mask: $mask<T>, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
+            fn select(mask: $mask, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
                 $float(mask.0.select(yes.into().0, no.into().0))
             }
             #[inline(always)]
-            fn gather<B: Copy + Into<u32>>(table: &[B], index: $int<T>) -> $int<T> {
+            fn gather<B: Copy + Into<u32>>(table: &[B], index: $int) -> $int {
                 let mut ints = *index.0;
                 for i in &mut ints {
                     *i = look_up(table, *i);
                 }
-                $int($i32s::simd_from(T::token(), ints))
+                $int($i32s::simd_from($level::assumed(), ints))
             }
             #[inline(always)]
-            fn gather3(table: &[[f32; 3]], index: $int<T>) -> [Self; 3] {
+            fn gather3(table: &[[f32; 3]], index: $int) -> [Self; 3] {
                 let mut rows = [[[0; 4]; 3]; $n];
                 for (row, i) in rows.iter_mut().zip(*index.0) {
                     *row = look_up3(table, i).map(f32::to_ne_bytes);
@@ -287,7 +287,7 @@ macro_rules! lanes {
                 Self::load_rows(&rows)
             }
             #[inline(always)]
-            fn gather4(table: &[u32], index: $int<T>) -> [$int<T>; 4] {
+            fn gather4(table: &[u32], index: $int) -> [$int; 4] {
                 let mut rows = [[[0; 4]; 4]; $n];
                 for (row, i) in rows.iter_mut().zip(*index.0) {
                     *row = look_up4(table, i).map(i32::to_ne_bytes);
@@ -296,8 +296,8 @@ macro_rules! lanes {
             }
         }
 
-        impl<T: CpuLevel> SimdInt for $int<T> {
-            type Mask = $mask<T>;
+        impl SimdInt for $int {
+            type Mask = $mask;
 
             #[inline(always)]
             fn shl(self, bits: u32) -> Self {
@@ -305,7 +305,7 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn shr_logical(self, bits: u32) -> Self {
-                let unsigned: $u32s<T::Simd> = self.0.bitcast();
+                let unsigned: $u32s<$level> = self.0.bitcast();
                 $int((unsigned >> bits).bitcast())
             }
             #[inline(always)]
@@ -313,23 +313,23 @@ macro_rules! lanes {
                 $int(self.0 >> bits)
             }
             #[inline(always)]
-            fn lt(self, other: impl Into<Self>) -> $mask<T> {
+            fn lt(self, other: impl Into<Self>) -> $mask {
                 $mask(self.0.simd_lt(other.into().0))
             }
             #[inline(always)]
-            fn eq(self, other: impl Into<Self>) -> $mask<T> {
+            fn eq(self, other: impl Into<Self>) -> $mask {
                 $mask(self.0.simd_eq(other.into().0))
             }
             #[inline(always)]
-            fn select(mask: $mask<T>, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
+            fn select(mask: $mask, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
                 $int(mask.0.select(yes.into().0, no.into().0))
             }
         }
 
-        impl<T: CpuLevel> SimdMask for $mask<T> {
+        impl SimdMask for $mask {
             #[inline(always)]
             fn splat(value: bool) -> Self {
-                $mask($mask32s::splat(T::token(), value))
+                $mask($mask32s::splat($level::assumed(), value))
             }
             #[inline(always)]
             fn any(self) -> bool {
@@ -339,5 +339,5 @@ macro_rules! lanes {
     };
 }
 
-lanes!(8, F32x8: f32x8, I32x8: i32x8 | u32x8 | u8x32, Mask32x8: mask32x8);
-lanes!(16, F32x16: f32x16, I32x16: i32x16 | u32x16 | u8x64, Mask32x16: mask32x16);
+lanes!(8, Avx2, F32x8: f32x8, I32x8: i32x8 | u32x8 | u8x32, Mask32x8: mask32x8);
+lanes!(16, Avx512, F32x16: f32x16, I32x16: i32x16 | u32x16 | u8x64, Mask32x16: mask32x16);
