@@ -4,6 +4,7 @@ use crate::batch::columns::{CodeColumn, Columns, Input, Output};
 use crate::batch::layout::{Codes, CodesMut, PART, Vectors, VectorsMut};
 use crate::batch::storage::{CodeIn, CodeSlice, CodeSliceMut};
 use crate::batch::{Kernel, map};
+use crate::simd::dispatch::DETECTS;
 use crate::simd::{Simd, Vec3};
 
 use super::Skew;
@@ -40,6 +41,8 @@ type FrameSlicesMut<'a> = <Frames as Output>::Slices<'a>;
 impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
     Kernel<Frames, (CodeColumn<B>, Columns<1>)> for Encode<F, PRECISE>
 {
+    const USE_WIDE: bool = !PRECISE || !DETECTS;
+
     #[inline(always)]
     fn run<V: Simd>(
         self,
