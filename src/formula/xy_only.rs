@@ -22,7 +22,7 @@ use super::support::bits::Pair;
 use super::support::closest::Closest;
 use super::support::half;
 use super::support::sign::negate_if;
-use super::{Formula, Symmetric, kernels};
+use super::{Formula, Symmetric, Use, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::math::{inv_sqrt, sqrt};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
@@ -266,6 +266,7 @@ fn swap_where<V: Simd>(swap: V::Mask, [p, q]: [V::Int; 2]) -> [V::Int; 2] {
 impl<G: XyGrid> Formula for XyOnly<G> {
     type Shape = Word;
     const HEMISPHERE: bool = true;
+    const PRECISE_USE: Use = Use::Rare;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {

@@ -17,6 +17,7 @@ impl Floats {
 
 impl Formula for Floats {
     type Shape = Words3;
+    const ONE_ENCODER: bool = true;
 
     #[inline(always)]
     fn prepare<V: Simd>(self, v: Vec3<V>) -> Vec3<V> {

@@ -30,7 +30,7 @@ pub(crate) use best_fit::BestFit;
 pub(crate) use floats::Floats;
 
 use super::support::sign::mirror_point;
-use super::{Code, Formula, Symmetric, kernels};
+use super::{Code, Formula, Symmetric, Use, kernels};
 use crate::batch::storage::Words;
 use crate::simd::{Simd, SimdInt, Vec3};
 use grid::{Fine, Grid, Steps};
@@ -108,7 +108,7 @@ impl<G: Grid> Cartesian<G> {
 
 impl<G: Grid> Formula for Cartesian<G> {
     type Shape = G::Shape;
-    const PRECISE_ON_ALL_LANES: bool = G::DISTINCT;
+    const PRECISE_USE: Use = if G::DISTINCT { Use::Often } else { Use::Rare };
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> Code<Self, V> {

@@ -41,7 +41,7 @@ pub(crate) use stretch::Stretch;
 
 use super::support::bits::Pair;
 use super::support::sign::{negate_if, not_if};
-use super::{Formula, Symmetric, kernels};
+use super::{Formula, Symmetric, Use, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
 use projection::DiskPoint;
@@ -191,6 +191,7 @@ impl Disk {
 
 impl Formula for Disk {
     type Shape = Word;
+    const PRECISE_USE: Use = Use::Rare;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
