@@ -181,7 +181,7 @@ impl XyOnly<XyUnorm> {
     }
 
     pub(crate) const fn points_per_octant(self) -> usize {
-        let half = (self.0.m as usize + 1) / 2;
+        let half = (self.0.m as usize).div_ceil(2);
         half * half
     }
 }

@@ -90,7 +90,7 @@ impl Steps {
 
     /// What is stored of a point. Bits above the field's may be set.
     #[inline(always)]
-    fn to_fields<V: Simd>(self, point: Vec3<V::Int>) -> Vec3<V::Int> {
+    fn fields_of<V: Simd>(self, point: Vec3<V::Int>) -> Vec3<V::Int> {
         if self.is_odd {
             let max = unorm_max(self.bits[0]);
             map_vec!(point, |i| (i + max).shr_arithmetic(1))
@@ -101,7 +101,7 @@ impl Steps {
 
     /// The point of what is stored, with anything above the fields' bits.
     #[inline(always)]
-    fn from_fields<V: Simd>(self, fields: Vec3<V::Int>) -> Vec3<V::Int> {
+    fn point_of<V: Simd>(self, fields: Vec3<V::Int>) -> Vec3<V::Int> {
         if self.is_odd {
             let bits = self.bits[0];
             map_vec!(fields, |index| index.low_bits(bits).shl(1) - unorm_max(bits))
@@ -200,13 +200,13 @@ impl Grid for Steps {
     #[inline(always)]
     fn pack<V: Simd>(self, point: Vec3<V::Int>) -> V::Int {
         let [x, y, z] = self.bits;
-        let fields = self.to_fields::<V>(point);
+        let fields = self.fields_of::<V>(point);
         fields.x.low_bits(x) | fields.y.low_bits(y).shl(x) | fields.z.low_bits(z).shl(x + y)
     }
     #[inline(always)]
     fn unpack<V: Simd>(self, code: V::Int) -> Vec3<V::Int> {
         let [x, y, _] = self.bits;
-        self.from_fields::<V>(Vec3::new(code, code.shr_logical(x), code.shr_logical(x + y)))
+        self.point_of::<V>(Vec3::new(code, code.shr_logical(x), code.shr_logical(x + y)))
     }
 }
 
@@ -299,14 +299,14 @@ impl Grid for Fine {
     #[inline(always)]
     fn pack<V: Simd>(self, point: Vec3<V::Int>) -> [V::Int; 3] {
         match self {
-            Fine::Steps(steps) => steps.to_fields::<V>(point).to_array(),
+            Fine::Steps(steps) => steps.fields_of::<V>(point).to_array(),
             Fine::Halves => map3!(point.to_array(), |i| half::to_bits::<V>(i)),
         }
     }
     #[inline(always)]
     fn unpack<V: Simd>(self, code: [V::Int; 3]) -> Vec3<V::Int> {
         match self {
-            Fine::Steps(steps) => steps.from_fields::<V>(Vec3::from(code)),
+            Fine::Steps(steps) => steps.point_of::<V>(Vec3::from(code)),
             Fine::Halves => {
                 Vec3::from(map3!(code, |bits| half::from_bits::<V>(bits, half::GREATEST)))
             }
