@@ -25,7 +25,7 @@
 //! three components at once: with the gradients d = g'(p), p += (s |v| - g(p)) / d, where the length
 //! s = (sum(g(p) / d) + 1 - sum(p)) / sum(|v| / d) makes their sum 1.
 //!
-//! Canonical: on the border of the square the points (u, +-M) and (+-M, w) stand for one direction
+//! Canonical: on the border of the square the points (u, +-M) and (+-M, w) mean one direction
 //! where the folded coordinate is zero; the positive sign is the one emitted. Axes survive exactly.
 //!
 //! Source: Meyer, Süßmuth, Sußner, Stamminger and Greiner, "On Floating-Point Normal Vectors",
