@@ -4,11 +4,12 @@ use core::ops::{Neg, Not};
 
 use fearless_simd::prelude::*;
 use fearless_simd::{
-    Avx2, Avx512, Simd as _, SimdMask as _, f32x8, f32x16, i32x8, i32x16, mask32x8, mask32x16,
-    u8x16, u8x32, u8x64, u32x8, u32x16,
+    Avx2, Avx512, Simd as _, SimdMask as _, f32x8, f32x16, i32x8, i32x16, mask32x16, u8x16, u8x32,
+    u8x64, u32x8, u32x16,
 };
 
 use super::Token;
+use super::mask::{Bits8, Compare};
 use super::shuffle::{Shuffle, dense, first, spread};
 use crate::simd::operators::{operators, scalar_operators};
 use crate::simd::stream::x86::Streaming;
@@ -57,14 +58,14 @@ macro_rules! lanes {
         $n:tt, $level:ident,
         $float:ident: $f32s:ident,
         $int:ident: $i32s:ident | $u32s:ident | $u8s:ident,
-        $mask:ident: $mask32s:ident
+        $mask:ident: $masks:ident $(<$mask_level:ident>)?
     ) => {
         #[derive(Clone, Copy)]
         pub(crate) struct $float($f32s<$level>);
         #[derive(Clone, Copy)]
         pub(crate) struct $int($i32s<$level>);
         #[derive(Clone, Copy)]
-        pub(crate) struct $mask($mask32s<$level>);
+        pub(crate) struct $mask($masks $(<$mask_level>)?);
 
         operators!($float: Add add, Sub sub, Mul mul, Div div);
         operators!($int: Add add, Sub sub, Mul mul, BitAnd bitand, BitOr bitor, BitXor bitxor);
@@ -155,14 +156,14 @@ macro_rules! lanes {
                     #[inline(always)]
                     |i| to[i] = from[i],
                 );
-                let pick: [u8; 4 * $n] = const { spread() };
+                let pick = from_array!($u8s, $level::assumed(), const { spread::<{ 4 * $n }>() });
                 let bytes = from_array!($u8s, $level::assumed(), bytes);
                 $int(bytes.swizzle_dyn_precise(pick).bitcast())
             }
             #[inline(always)]
             fn store_bytes(int: $int, block: &mut [[u8; 3]; $n]) {
                 let bytes: $u8s<$level> = int.0.bitcast();
-                let pick: [u8; 4 * $n] = const { dense() };
+                let pick = from_array!($u8s, $level::assumed(), const { dense::<{ 4 * $n }>() });
                 let bytes: [u8; 4 * $n] = *bytes.swizzle_dyn(pick);
                 let (from, _) = bytes.as_chunks::<$n>();
                 let (to, _) = block.as_flattened_mut().as_chunks_mut::<$n>();
@@ -178,7 +179,7 @@ macro_rules! lanes {
                 for (row, picks) in rows.iter().zip(&Shuffle::<N, C, $n, { 4 * $n }>::LOAD) {
                     let row: $u32s<$level> = from_array!($u8s, $level::assumed(), *row).bitcast();
                     for (column, pick) in columns.iter_mut().zip(picks) {
-                        *column = column.concat_swizzle_dyn(row, *pick);
+                        *column = column.concat_swizzle_dyn(row, from_array!($u8s, $level::assumed(), *pick));
                     }
                 }
                 columns.map(
@@ -194,7 +195,7 @@ macro_rules! lanes {
                 for picks in &Shuffle::<4, C, $n, { 4 * $n }>::LOAD {
                     let row: $u32s<$level> = join!($n, $level::assumed(), quad).bitcast();
                     for (column, pick) in columns.iter_mut().zip(picks) {
-                        *column = column.concat_swizzle_dyn(row, *pick);
+                        *column = column.concat_swizzle_dyn(row, from_array!($u8s, $level::assumed(), *pick));
                     }
                 }
                 Some(columns.map(
@@ -215,12 +216,12 @@ macro_rules! lanes {
                 for (row, picks) in rows.iter_mut().zip(&Shuffle::<N, C, $n, { 4 * $n }>::STORE) {
                     let mut all = columns[0];
                     for (column, pick) in columns[1..].iter().zip(picks) {
-                        all = all.concat_swizzle_dyn(*column, *pick);
+                        all = all.concat_swizzle_dyn(*column, from_array!($u8s, $level::assumed(), *pick));
                     }
                     if N > C {
                         let kept: $u32s<$level> =
                             from_array!($u8s, $level::assumed(), *row).bitcast();
-                        all = all.concat_swizzle_dyn(kept, picks[C - 1]);
+                        all = all.concat_swizzle_dyn(kept, from_array!($u8s, $level::assumed(), picks[C - 1]));
                     }
                     *row = *all.bitcast::<$u8s<$level>>();
                 }
@@ -230,7 +231,7 @@ macro_rules! lanes {
                 columns: [Self; C],
                 mut quad: impl FnMut() -> Option<&'a mut [u8; 16]>,
             ) -> Option<()> {
-                let pick = const { first::<C>() };
+                let pick = from_array!(u8x16, $level::assumed(), const { first::<C>() });
                 let columns: [$u32s<$level>; C] = columns.map(
                     #[inline(always)]
                     |column| column.0.bitcast(),
@@ -238,7 +239,7 @@ macro_rules! lanes {
                 for picks in &Shuffle::<4, C, $n, { 4 * $n }>::STORE {
                     let mut all = columns[0];
                     for (column, pick) in columns[1..].iter().zip(picks) {
-                        all = all.concat_swizzle_dyn(*column, *pick);
+                        all = all.concat_swizzle_dyn(*column, from_array!($u8s, $level::assumed(), *pick));
                     }
                     split!($n, $level::assumed(), all.bitcast::<$u8s<$level>>(), pick, quad);
                 }
@@ -279,15 +280,15 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn lt(self, other: impl Into<Self>) -> $mask {
-                $mask(self.0.simd_lt(other.into().0))
+                $mask(self.0.less(other.into().0))
             }
             #[inline(always)]
             fn le(self, other: impl Into<Self>) -> $mask {
-                $mask(self.0.simd_le(other.into().0))
+                $mask(self.0.less_or_equal(other.into().0))
             }
             #[inline(always)]
             fn select(mask: $mask, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
-                $float(mask.0.select(yes.into().0, no.into().0))
+                $float(Compare::select(mask.0, yes.into().0, no.into().0))
             }
             #[inline(always)]
             fn gather<B: Copy + Into<u32>>(table: &[B], index: $int) -> $int {
@@ -333,22 +334,22 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn lt(self, other: impl Into<Self>) -> $mask {
-                $mask(self.0.simd_lt(other.into().0))
+                $mask(self.0.less(other.into().0))
             }
             #[inline(always)]
             fn eq(self, other: impl Into<Self>) -> $mask {
-                $mask(self.0.simd_eq(other.into().0))
+                $mask(self.0.equal(other.into().0))
             }
             #[inline(always)]
             fn select(mask: $mask, yes: impl Into<Self>, no: impl Into<Self>) -> Self {
-                $int(mask.0.select(yes.into().0, no.into().0))
+                $int(Compare::select(mask.0, yes.into().0, no.into().0))
             }
         }
 
         impl SimdMask for $mask {
             #[inline(always)]
             fn splat(value: bool) -> Self {
-                $mask($mask32s::splat($level::assumed(), value))
+                $mask($masks::splat($level::assumed(), value))
             }
             #[inline(always)]
             fn any(self) -> bool {
@@ -358,5 +359,5 @@ macro_rules! lanes {
     };
 }
 
-lanes!(8, Avx2, F32x8: f32x8, I32x8: i32x8 | u32x8 | u8x32, Mask32x8: mask32x8);
-lanes!(16, Avx512, F32x16: f32x16, I32x16: i32x16 | u32x16 | u8x64, Mask32x16: mask32x16);
+lanes!(8, Avx2, F32x8: f32x8, I32x8: i32x8 | u32x8 | u8x32, Mask32x8: Bits8);
+lanes!(16, Avx512, F32x16: f32x16, I32x16: i32x16 | u32x16 | u8x64, Mask32x16: mask32x16<Avx512>);

@@ -7,6 +7,7 @@
 #![allow(unsafe_code)]
 
 mod lanes;
+mod mask;
 mod shuffle;
 
 use fearless_simd::{Avx2, Avx512, Level};
