@@ -43,7 +43,7 @@ use crate::codec::{Codec, Format, codec_table};
 use crate::error::LengthMismatch;
 use crate::formula::Symmetric;
 #[cfg(feature = "cartesian")]
-use crate::formula::cartesian::SnormXyz;
+use crate::formula::cartesian::Xyz;
 #[cfg(feature = "polyhedral")]
 use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
 #[cfg(feature = "disk")]
@@ -318,7 +318,7 @@ macro_rules! octant_kernels {
 #[cfg(feature = "octahedral")]
 octant_kernels!(Oct<Central>, Oct<Warped>, Oct<EqualArea>, HemiOct, Octant);
 #[cfg(feature = "cartesian")]
-octant_kernels!(SnormXyz, XyOnly<XyUnorm>);
+octant_kernels!(Xyz, XyOnly<XyUnorm>);
 #[cfg(feature = "disk")]
 octant_kernels!(Disk);
 #[cfg(feature = "polyhedral")]

@@ -349,13 +349,16 @@ fn encode_batch<F: Lattice>(formula: F, first: u32, vectors: Vectors<'_, 3>, cod
     });
 }
 
+/// What encodes columns and their numbers.
+type NumberedKernel<'k> = &'k dyn Fn(([&[f32]; 3], Indices), CodesMut<'_>);
+
 /// Calls a kernel with vectors and their numbers, a part at a time.
 #[inline(never)]
 fn encode_numbered(
     first: u32,
     vectors: Vectors<'_, 3>,
     codes: CodesMut<'_>,
-    kernel: &dyn Fn(([&[f32]; 3], Indices), CodesMut<'_>),
+    kernel: NumberedKernel<'_>,
 ) {
     let mut buffer = [[0.0; PART]; 3];
     let mut done = 0;

@@ -12,9 +12,9 @@ use crate::simd::stream::{self, Fence};
 /// Elements that are converted at a time: more where each part costs a check of the processor.
 pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { FEW };
 /// As many, where nothing else needs room.
-const MANY: usize = if cfg!(feature = "std") { 1024 } else { FEW };
+pub(crate) const MANY: usize = if cfg!(feature = "std") { 1024 } else { FEW };
 /// A part of so few that the room for it costs little.
-const FEW: usize = 64;
+pub(crate) const FEW: usize = 64;
 
 /// Vectors of `K` components to read.
 #[derive(Clone, Copy)]
@@ -98,7 +98,7 @@ impl<'a> Codes<'a> {
     }
 
     /// Whether their bytes are little-endian.
-    fn is_direct(self) -> bool {
+    pub(crate) fn is_direct(self) -> bool {
         cfg!(target_endian = "little") || self.native == 1
     }
 
@@ -203,7 +203,7 @@ fn decode_columns<const K: usize>(
     columns: [&mut [f32]; K],
     kernel: DecodeKernel<'_, K>,
 ) {
-    let bytes = columns.first().map_or(0, |x| K * size_of_val::<[f32]>(x));
+    let bytes = columns.first().map_or(0, |x| K * size_of::<f32>() * x.len());
     if !stream::is_large(bytes) {
         return kernel(codes, columns, &Fence::new(false));
     }
@@ -347,11 +347,14 @@ pub(crate) fn columns_mut<const K: usize, const PART: usize>(
     (len <= PART).then(|| buffer.each_mut().map(|column| column.get_mut(..len).unwrap_or_default()))
 }
 
+/// Columns to write.
+type ColumnsMut<'a, const K: usize> = [&'a mut [f32]; K];
+
 /// The first `at` elements of each column, and the others. `None` if there are fewer.
 fn split_columns<const K: usize>(
-    columns: [&mut [f32]; K],
+    columns: ColumnsMut<'_, K>,
     at: usize,
-) -> Option<([&mut [f32]; K], [&mut [f32]; K])> {
+) -> Option<(ColumnsMut<'_, K>, ColumnsMut<'_, K>)> {
     <Columns<K> as Output>::split(columns, at)
 }
 

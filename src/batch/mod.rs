@@ -75,6 +75,10 @@ impl<K: Kernel<I, O>, I: Input, O: Output> BatchLoop for Loop<'_, '_, K, I, O> {
     }
 }
 
+/// What runs over so many whole blocks.
+type BlocksKernel<'k, I, O> =
+    &'k dyn Fn(<I as Input>::Slices<'_>, <O as Output>::Slices<'_>, usize);
+
 /// Runs `kernel` over a number of whole blocks, and then over the remainder in a padded block. Not
 /// generic over the kernel, so that all kernels between the same kinds of slices share it.
 #[inline(never)]
@@ -82,7 +86,7 @@ fn run_padded<I: Input, O: Output>(
     lanes: usize,
     input: I::Slices<'_>,
     output: O::Slices<'_>,
-    kernel: &dyn Fn(I::Slices<'_>, O::Slices<'_>, usize),
+    kernel: BlocksKernel<'_, I, O>,
 ) {
     let len = I::len(input);
     let rest_len = len % lanes;

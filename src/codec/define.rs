@@ -8,9 +8,7 @@ use crate::batch::storage::{from_native, to_native};
 use crate::formula::{Formula, Kernels, Source, kernels};
 
 #[cfg(feature = "cartesian")]
-use crate::formula::cartesian::{
-    BestFit, Floats, HalfXyz, Snorm16Xyz, SnormXyz, Unorm16Xyz, UnormXyz,
-};
+use crate::formula::cartesian::{BestFit, Floats, Xyz, Xyz16};
 #[cfg(feature = "polyhedral")]
 use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
 #[cfg(feature = "disk")]

@@ -73,12 +73,12 @@ macro_rules! codec_table {
     "Cartesian: the three components, x in the low bits, as many bits each as the name says; decoding divides by the length. Snorm \
      -M-1 reads as -M, infinite and NaN halves as 65504, (0, 0, 0) as +Z. Of the patterns of one direction the one whose length \
      is nearest to 1 is canonical; snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction." {
-        Snorm5x3: u16 = "snorm5x3", 15 bits, 3.299 / 2.707 degrees, exact "±X ±Y ±Z", SnormXyz::new([5, 5, 5]), octant;
-        Snorm8x3: [u8; 3] = "snorm8x3", 24 bits, 0.3920 / 0.3203 degrees, exact "±X ±Y ±Z", SnormXyz::new([8, 8, 8]), hot;
-        Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, exact "±X ±Y ±Z", SnormXyz::new([10, 10, 10]), hot;
-        Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, exact "±X ±Y ±Z", SnormXyz::new([11, 11, 10]);
-        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Snorm16Xyz::new();
-        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, exact "±X ±Y ±Z", HalfXyz::new();
+        Snorm5x3: u16 = "snorm5x3", 15 bits, 3.299 / 2.707 degrees, exact "±X ±Y ±Z", Xyz::snorm([5, 5, 5]), octant;
+        Snorm8x3: [u8; 3] = "snorm8x3", 24 bits, 0.3920 / 0.3203 degrees, exact "±X ±Y ±Z", Xyz::snorm([8, 8, 8]), hot;
+        Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, exact "±X ±Y ±Z", Xyz::snorm([10, 10, 10]), hot;
+        Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, exact "±X ±Y ±Z", Xyz::snorm([11, 11, 10]);
+        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Xyz16::snorm();
+        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, exact "±X ±Y ±Z", Xyz16::halves();
     }
     #[cfg(feature = "cartesian")]
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included." {
@@ -279,8 +279,8 @@ macro_rules! codec_table {
     "Cartesian, scaled and biased: three unorm components, (c + 1) / 2, x in the low bits, as a UNORM render target holds \
      them. Decoding divides by the length. `encode_precise` gives the nearest direction of any length. xyz-unorm16x3 is finer \
      than `f32`, so there what decodes alike is one direction." {
-        XyzUnorm8x3: [u8; 3] = "xyz-unorm8x3", 24 bits, 0.3898 / 0.3191 degrees, exact "", UnormXyz::new();
-        XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, exact "", Unorm16Xyz::new();
+        XyzUnorm8x3: [u8; 3] = "xyz-unorm8x3", 24 bits, 0.3898 / 0.3191 degrees, exact "", Xyz::unorm(8), hot;
+        XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, exact "", Xyz16::unorm();
     }
     #[cfg(feature = "cartesian")]
     "Crytek's best-fit normals: the bits of [`XyzUnorm8x3`], of the length that a table of 256 KiB gives for the direction. \

@@ -78,6 +78,7 @@ impl Fibonacci {
 
 impl Formula for Fibonacci {
     type Shape = Word;
+    const ONE_ENCODER: bool = true;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {

@@ -17,9 +17,9 @@
 //! so that it has no +-Z.
 
 use super::support::bits::Pair;
-use super::support::closest::{Closest, corners};
+use super::support::closest::{Closest, corners, join, split};
 use super::support::sign::{negate_if, not_if};
-use super::{Formula, Symmetric, kernels};
+use super::{Formula, Symmetric, Use, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::{Simd, SimdInt, Vec3, map2};
 
@@ -52,6 +52,24 @@ impl HemiOct {
         map2!(self.project(v), |p| p.round_int())
     }
 
+    /// The parameters of the nearest vector.
+    #[inline(always)]
+    fn nearest_precise<V: Simd>(self, v: Vec3<V>) -> [V::Int; 2] {
+        let mut closest = Closest::to(v);
+        for params in corners(self.project(v)) {
+            let params = map2!(params, |p| p.clamp(-self.max, self.max));
+            closest.consider(join::<V>(params), self.vector(params));
+        }
+        split::<V>(closest.code())
+    }
+
+    #[inline(always)]
+    fn vector<V: Simd>(self, [u, w]: [V::Int; 2]) -> Vec3<V> {
+        let z = V::Int::splat(self.max) - u.abs().max(w.abs());
+        let p = Vec3::from_int(Vec3::new(u + w, u - w, z + z));
+        (p * self.half_step).normalize()
+    }
+
     /// The code with x or y negated: (x + y, x - y) becomes minus (x - y, x + y) or (x - y, x + y).
     #[inline(always)]
     fn mirror_xy<V: Simd>(self, code: V::Int, x: bool, y: bool) -> V::Int {
@@ -69,7 +87,7 @@ impl HemiOct {
 impl Formula for HemiOct {
     type Shape = Word;
     const HEMISPHERE: bool = true;
-    const PRECISE_ON_ALL_LANES: bool = true;
+    const PRECISE_USE: Use = Use::Often;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
@@ -78,20 +96,12 @@ impl Formula for HemiOct {
 
     #[inline(always)]
     fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
-        let mut closest = Closest::to(v);
-        for params in corners(self.project(v)) {
-            let code = self.pair.pack_snorm::<V>(map2!(params, |p| p.clamp(-self.max, self.max)));
-            closest.consider(code, self.decode::<V>(code));
-        }
-        closest.code()
+        self.pair.pack_snorm::<V>(self.nearest_precise(v))
     }
 
     #[inline(always)]
     fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
-        let [u, w] = self.pair.unpack_snorm::<V>(code);
-        let z = V::Int::splat(self.max) - u.abs().max(w.abs());
-        let p = Vec3::from_int(Vec3::new(u + w, u - w, z + z));
-        (p * self.half_step).normalize()
+        self.vector(self.pair.unpack_snorm::<V>(code))
     }
 
     #[inline(always)]
@@ -156,8 +166,8 @@ impl Formula for SignedOct {
 
     #[inline(always)]
     fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
-        let code = self.hemisphere.encode_precise(Vec3 { z: v.z.abs(), ..v });
-        self.signed::<V>(code, v.z.lt(0.0))
+        let params = self.hemisphere.nearest_precise(Vec3 { z: v.z.abs(), ..v });
+        self.pack::<V>(params, v.z.lt(0.0))
     }
 
     #[inline(always)]

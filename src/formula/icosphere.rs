@@ -178,6 +178,7 @@ impl Icosphere {
 
 impl Formula for Icosphere {
     type Shape = Word;
+    const ONE_ENCODER: bool = true;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {

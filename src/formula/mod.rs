@@ -47,9 +47,10 @@ pub(crate) trait Formula: Copy + Send + Sync + 'static {
     type Shape: CodeShape;
     /// Whether only z >= 0 is represented. z < 0 is then taken as 0.
     const HEMISPHERE: bool = false;
-    /// Whether `encode_precise` of many vectors is compiled for every kind of lanes. Searches are long
-    /// to compile.
-    const PRECISE_ON_ALL_LANES: bool = false;
+    /// How often `encode_precise` is called for many vectors, that is, how much to compile for it.
+    const PRECISE_USE: Use = Use::Sometimes;
+    /// Whether `encode` is `encode_precise`.
+    const ONE_ENCODER: bool = false;
 
     /// Turns any input into a direction that `encode` understands: see [`sanitize`].
     #[inline(always)]
@@ -83,6 +84,16 @@ pub(crate) trait Formula: Copy + Send + Sync + 'static {
         let mirrored = mirror_vector(self.decode::<V>(code), flips);
         self.encode_precise(self.prepare(mirrored))
     }
+}
+
+/// How much a kernel is used.
+pub(crate) enum Use {
+    /// So it is compiled for all lanes.
+    Often,
+    /// So it has no form for processors that were found to have no AVX2.
+    Sometimes,
+    /// So it has no form for AVX-512 either.
+    Rare,
 }
 
 /// A code of the formula `F` in lanes.
@@ -131,8 +142,8 @@ impl<S: Source, K, const PRECISE: bool> Kernel<Columns<3>, CodeColumn<K>> for En
 where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
-    const USE_AVX512: bool = !PRECISE || S::Formula::PRECISE_ON_ALL_LANES;
-    const USE_WIDE: bool = !PRECISE || S::Formula::PRECISE_ON_ALL_LANES || !DETECTS;
+    const USE_AVX512: bool = !PRECISE || !matches!(S::Formula::PRECISE_USE, Use::Rare);
+    const USE_WIDE: bool = !PRECISE || !DETECTS || matches!(S::Formula::PRECISE_USE, Use::Often);
 
     #[inline(always)]
     fn run<V: Simd>(self, v: [V; 3]) -> Code<S::Formula, V> {
@@ -234,7 +245,7 @@ macro_rules! kernels {
 }
 pub(crate) use kernels;
 
-#[inline(always)]
+#[inline]
 pub(crate) fn encode<S: Source, K, const PRECISE: bool>(
     source: S,
     vectors: Vectors<'_, 3>,
@@ -242,6 +253,9 @@ pub(crate) fn encode<S: Source, K, const PRECISE: bool>(
 ) where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
+    if PRECISE && S::Formula::ONE_ENCODER {
+        return encode::<S, K, false>(source, vectors, codes);
+    }
     layout::encode(vectors, codes, &|vectors, codes| {
         map::<Columns<3>, CodeColumn<K>>(Encode::<S, PRECISE>(source), vectors, codes);
     });

@@ -38,7 +38,7 @@ use core::marker::PhantomData;
 use super::support::bits::Pair;
 use super::support::closest::{Closest, corners};
 use super::support::sign::negate_if;
-use super::{Formula, Lattice, Symmetric, kernels};
+use super::{Formula, Lattice, Symmetric, Use, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sqrt};
 use crate::simd::{Simd, SimdInt, Vec3, map_vec, map2, map3};
@@ -248,7 +248,7 @@ impl<P: Projection> Oct<P> {
 
 impl<P: Projection> Formula for Oct<P> {
     type Shape = Word;
-    const PRECISE_ON_ALL_LANES: bool = true;
+    const PRECISE_USE: Use = Use::Often;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {

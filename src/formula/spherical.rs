@@ -13,9 +13,9 @@
 //! digits.
 
 use super::support::bits::Pair;
-use super::support::closest::{Closest, corners};
+use super::support::closest::{Closest, corners, join, split};
 use super::support::sign::negate_if;
-use super::{Formula, kernels};
+use super::{Formula, Use, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sin_cos_quarter_turns, sqrt};
 use crate::simd::{Simd, SimdInt, Vec3, map2};
@@ -44,18 +44,31 @@ impl Spherical {
         [(theta + theta - 1.0) * self.max_float, phi * self.max_float]
     }
 
+    /// The canonical ones of parameters that may be a step out of range.
     #[inline(always)]
-    fn pack<V: Simd>(self, [u, w]: [V::Int; 2]) -> V::Int {
+    fn canonical_params<V: Simd>(self, [u, w]: [V::Int; 2]) -> [V::Int; 2] {
         let pole = u.abs().eq(self.max);
         // The seam: -M is +M, and one step beyond is one step back from +M. None is above +M.
         let w = V::Int::select(V::Int::splat(-self.max).lt(w), w, w + self.max + self.max);
-        self.pair.pack_snorm::<V>([u, V::Int::select(pole, 0, w)])
+        [u, V::Int::select(pole, 0, w)]
+    }
+
+    #[inline(always)]
+    fn pack<V: Simd>(self, params: [V::Int; 2]) -> V::Int {
+        self.pair.pack_snorm::<V>(self.canonical_params::<V>(params))
+    }
+
+    #[inline(always)]
+    fn vector<V: Simd>(self, [u, w]: [V::Int; 2]) -> Vec3<V> {
+        let (sin_u, cos_u) = sin_cos_of_one(V::from_int(u) * self.step);
+        let (sin_phi, cos_phi) = sin_cos_quarter_turns(V::from_int(w) * (2.0 * self.step));
+        Vec3::new(cos_u * cos_phi, cos_u * sin_phi, -sin_u)
     }
 }
 
 impl Formula for Spherical {
     type Shape = Word;
-    const PRECISE_ON_ALL_LANES: bool = true;
+    const PRECISE_USE: Use = Use::Often;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
@@ -66,18 +79,15 @@ impl Formula for Spherical {
     fn encode_precise<V: Simd>(self, v: Vec3<V>) -> V::Int {
         let mut closest = Closest::to(v);
         for [u, w] in corners(self.angles(v)) {
-            let code = self.pack::<V>([u.clamp(-self.max, self.max), w]);
-            closest.consider(code, self.decode::<V>(code));
+            let params = self.canonical_params::<V>([u.clamp(-self.max, self.max), w]);
+            closest.consider(join::<V>(params), self.vector(params));
         }
-        closest.code()
+        self.pair.pack_snorm::<V>(split::<V>(closest.code()))
     }
 
     #[inline(always)]
     fn decode<V: Simd>(self, code: V::Int) -> Vec3<V> {
-        let [u, w] = self.pair.unpack_snorm::<V>(code);
-        let (sin_u, cos_u) = sin_cos_of_one(V::from_int(u) * self.step);
-        let (sin_phi, cos_phi) = sin_cos_quarter_turns(V::from_int(w) * (2.0 * self.step));
-        Vec3::new(cos_u * cos_phi, cos_u * sin_phi, -sin_u)
+        self.vector(self.pair.unpack_snorm::<V>(code))
     }
 
     #[inline(always)]

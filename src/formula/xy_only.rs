@@ -22,7 +22,7 @@ use super::support::bits::Pair;
 use super::support::closest::Closest;
 use super::support::half;
 use super::support::sign::negate_if;
-use super::{Formula, Symmetric, kernels};
+use super::{Formula, Symmetric, Use, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::math::{inv_sqrt, sqrt};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
@@ -181,7 +181,7 @@ impl XyOnly<XyUnorm> {
     }
 
     pub(crate) const fn points_per_octant(self) -> usize {
-        let half = (self.0.m as usize + 1) / 2;
+        let half = (self.0.m as usize).div_ceil(2);
         half * half
     }
 }
@@ -244,11 +244,16 @@ impl<G: XyGrid> XyOnly<G> {
     }
 
     /// Considers the code of a point, which may be out of range.
-    #[inline(always)]
+    #[inline(never)]
     fn consider<V: Simd>(self, closest: &mut Closest<V>, counts: V::Mask, xy: [V::Int; 2]) {
-        let greatest = self.0.greatest();
-        let xy = self.canonical_point::<V>(map2!(xy, |i| i.clamp(-greatest, greatest)));
-        closest.consider_where(counts, self.0.pack::<V>(xy), self.point::<V>(xy));
+        V::with_target_features(
+            #[inline(always)]
+            || {
+                let greatest = self.0.greatest();
+                let xy = self.canonical_point::<V>(map2!(xy, |i| i.clamp(-greatest, greatest)));
+                closest.consider_where(counts, self.0.pack::<V>(xy), self.point::<V>(xy));
+            },
+        );
     }
 }
 
@@ -261,6 +266,7 @@ fn swap_where<V: Simd>(swap: V::Mask, [p, q]: [V::Int; 2]) -> [V::Int; 2] {
 impl<G: XyGrid> Formula for XyOnly<G> {
     type Shape = Word;
     const HEMISPHERE: bool = true;
+    const PRECISE_USE: Use = Use::Rare;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {
@@ -291,15 +297,17 @@ impl<G: XyGrid> Formula for XyOnly<G> {
                 let [rim_p, rim_q] = map2!([p, q], |c| c * to_rim);
                 let [outside_p, outside_q] =
                     map2!([p, q], |c| V::Int::select(c.lt(0.0), -greatest, greatest));
-                for q_index in self.neighbours(rim_q) {
-                    let q_index = q_index.clamp(-grid.diagonal(), grid.diagonal());
-                    let point = swap_where::<V>(swap, [outside_p, q_index]);
-                    self.consider(&mut closest, always, point);
-                }
-                for p_index in self.neighbours(rim_p) {
-                    let p_index = p_index.clamp(-grid.diagonal(), grid.diagonal());
-                    let point = swap_where::<V>(swap, [p_index, outside_q]);
-                    self.consider(&mut closest, always, point);
+                let [beside_q, beside_p] = [rim_q, rim_p].map(
+                    #[inline(always)]
+                    |c| map2!(self.neighbours(c), |i| i.clamp(-grid.diagonal(), grid.diagonal())),
+                );
+                for point in [
+                    [outside_p, beside_q[0]],
+                    [outside_p, beside_q[1]],
+                    [beside_p[0], outside_q],
+                    [beside_p[1], outside_q],
+                ] {
+                    self.consider(&mut closest, always, swap_where::<V>(swap, point));
                 }
                 // Column after column, to both sides. The middle one may be further than the one on the
                 // other side of v.

@@ -1,9 +1,10 @@
 //! The kernels of frame codecs, in any layout.
 
 use crate::batch::columns::{CodeColumn, Columns, Input, Output};
-use crate::batch::layout::{Codes, CodesMut, PART, Vectors, VectorsMut};
+use crate::batch::layout::{Codes, CodesMut, FEW, MANY, PART, Vectors, VectorsMut};
 use crate::batch::storage::{CodeIn, CodeSlice, CodeSliceMut};
 use crate::batch::{Kernel, map};
+use crate::simd::dispatch::DETECTS;
 use crate::simd::{Simd, Vec3};
 
 use super::Skew;
@@ -40,6 +41,8 @@ type FrameSlicesMut<'a> = <Frames as Output>::Slices<'a>;
 impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
     Kernel<Frames, (CodeColumn<B>, Columns<1>)> for Encode<F, PRECISE>
 {
+    const USE_WIDE: bool = !PRECISE || !DETECTS;
+
     #[inline(always)]
     fn run<V: Simd>(
         self,
@@ -70,12 +73,19 @@ struct Worst {
 impl Worst {
     /// Considers frames from the one with the index `first` on.
     fn consider(&mut self, first: usize, sines: &[f32]) {
-        // None is negative, so they are in the order of their bits, of which maxima vectorise.
-        let greatest = sines.iter().map(|sin_squared| sin_squared.to_bits()).max().unwrap_or(0);
+        // None is negative, so they are in the order of their bits. Compilers vectorise maxima of
+        // integers, and comparisons of a number of elements that they know.
+        let greatest = sines.iter().fold(0, |most, sine| most.max(sine.to_bits() as i32)) as u32;
         if greatest > self.sin_squared.to_bits() {
-            let place = sines.iter().position(|sin_squared| sin_squared.to_bits() == greatest);
+            let is_greatest = |sine: &f32| sine.to_bits() == greatest;
+            let (blocks, _) = sines.as_chunks::<16>();
+            let before = blocks
+                .iter()
+                .position(|block| block.iter().fold(false, |found, sine| found | is_greatest(sine)))
+                .unwrap_or(blocks.len());
+            let rest = sines.get(16 * before..).unwrap_or_default();
             self.sin_squared = f32::from_bits(greatest);
-            self.index = first + place.unwrap_or(0);
+            self.index = first + 16 * before + rest.iter().position(is_greatest).unwrap_or(0);
         }
     }
 }
@@ -90,7 +100,7 @@ pub(super) fn encode<F: FrameFormula, const N: usize, const PRECISE: bool>(
 where
     [u8; N]: FrameBytes,
 {
-    encode_parts(normals, tangents, codes, &|frames, codes, sines| {
+    encode_any(normals, tangents, codes, &|frames, codes, sines| {
         let output = (codes, [sines]);
         map::<Frames, (CodeColumn<[u8; N]>, Columns<1>)>(
             Encode::<F, PRECISE>(formula),
@@ -100,14 +110,34 @@ where
     })
 }
 
+/// What encodes columns.
+type EncodeKernel<'k> = &'k dyn Fn(FrameSlices<'_>, CodeSliceMut<'_>, &mut [f32]);
+
+/// Columns need no room for their parts, so these can be large.
 #[inline(never)]
-fn encode_parts(
+fn encode_any(
     normals: Vectors<'_, 3>,
     tangents: Vectors<'_, 4>,
     codes: CodesMut<'_>,
-    kernel: &dyn Fn(FrameSlices<'_>, CodeSliceMut<'_>, &mut [f32]),
+    kernel: EncodeKernel<'_>,
 ) -> Skew {
-    let (mut normal_buffer, mut tangent_buffer) = ([[0.0; PART]; 3], [[0.0; PART]; 4]);
+    match (normals, tangents) {
+        (Vectors::Columns(_), Vectors::Columns(_)) if codes.len() > FEW => {
+            encode_parts::<MANY, 0>(normals, tangents, codes, kernel)
+        }
+        _ if codes.len() > FEW => encode_parts::<PART, PART>(normals, tangents, codes, kernel),
+        _ => encode_parts::<FEW, FEW>(normals, tangents, codes, kernel),
+    }
+}
+
+#[inline(never)]
+fn encode_parts<const PART: usize, const ROWS: usize>(
+    normals: Vectors<'_, 3>,
+    tangents: Vectors<'_, 4>,
+    codes: CodesMut<'_>,
+    kernel: EncodeKernel<'_>,
+) -> Skew {
+    let (mut normal_buffer, mut tangent_buffer) = ([[0.0; ROWS]; 3], [[0.0; ROWS]; 4]);
     let mut sines = [0.0; PART];
     let mut worst = Worst::default();
     let mut first = 0;
@@ -133,9 +163,27 @@ pub(super) fn decode<F: FrameFormula, const N: usize>(
 ) where
     [u8; N]: FrameBytes,
 {
-    decode_parts(codes, normals, tangents, &|codes, frames| {
+    decode_any(codes, normals, tangents, &|codes, frames| {
         map::<CodeColumn<[u8; N]>, Frames>(Decode(formula), codes, frames);
     });
+}
+
+/// What decodes to columns.
+type DecodeKernel<'k> = &'k dyn Fn(CodeSlice<'_>, FrameSlicesMut<'_>);
+
+#[inline(never)]
+fn decode_any(
+    codes: Codes<'_>,
+    normals: VectorsMut<'_, 3>,
+    tangents: VectorsMut<'_, 4>,
+    kernel: DecodeKernel<'_>,
+) {
+    match (normals, tangents) {
+        (VectorsMut::Columns(normals), VectorsMut::Columns(tangents)) if codes.is_direct() => {
+            codes.read(|codes| kernel(codes, (normals, tangents)));
+        }
+        (normals, tangents) => decode_parts(codes, normals, tangents, kernel),
+    }
 }
 
 #[inline(never)]
@@ -143,7 +191,7 @@ fn decode_parts(
     codes: Codes<'_>,
     mut normals: VectorsMut<'_, 3>,
     mut tangents: VectorsMut<'_, 4>,
-    kernel: &dyn Fn(CodeSlice<'_>, FrameSlicesMut<'_>),
+    kernel: DecodeKernel<'_>,
 ) {
     let (mut normal_buffer, mut tangent_buffer) = ([[0.0; PART]; 3], [[0.0; PART]; 4]);
     for codes in codes.parts(PART) {

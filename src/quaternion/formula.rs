@@ -6,6 +6,7 @@ use crate::batch::storage::{CodeBytes, CodeKind, CodeShape, ShapeIn};
 use crate::batch::{Kernel, map, run};
 use crate::formula::support::sanitize::sanitize4;
 use crate::simd::Simd;
+use crate::simd::dispatch::DETECTS;
 
 /// A representation of rotations, on any number of lanes. See
 /// [`Formula`](crate::formula::Formula).
@@ -46,6 +47,8 @@ struct Decode<R>(R);
 impl<R: Rotation, K: CodeKind<Shape = R::Shape>, const PRECISE: bool>
     Kernel<Columns<4>, CodeColumn<K>> for Encode<R, PRECISE>
 {
+    const USE_WIDE: bool = !PRECISE || !DETECTS;
+
     #[inline(always)]
     fn run<V: Simd>(self, q: [V; 4]) -> Code<R, V> {
         let q = sanitize4(q);

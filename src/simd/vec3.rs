@@ -68,7 +68,9 @@ impl<T> Vec3<T> {
     pub(crate) const fn new(x: T, y: T, z: T) -> Self {
         Vec3 { x, y, z }
     }
+}
 
+impl<T: Copy> Vec3<T> {
     #[inline(always)]
     pub(crate) fn to_array(self) -> [T; 3] {
         [self.x, self.y, self.z]

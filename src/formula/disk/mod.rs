@@ -41,7 +41,7 @@ pub(crate) use stretch::Stretch;
 
 use super::support::bits::Pair;
 use super::support::sign::{negate_if, not_if};
-use super::{Formula, Symmetric, kernels};
+use super::{Formula, Symmetric, Use, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
 use projection::DiskPoint;
@@ -87,8 +87,8 @@ impl Chart {
     fn params<V: Simd>(self, v: Vec3<V>, past: bool) -> ([V; 2], DiskPoint<V>) {
         let z = if past { -v.z.abs() } else { v.z.abs() };
         let needs_d = past || matches!(self.stretch, Stretch::Ellipse);
-        let disk = self.projection.to_disk(Vec3 { z, ..v }, past, needs_d);
-        let [u, v] = self.stretch.to_square(disk);
+        let disk = self.projection.project(Vec3 { z, ..v }, past, needs_d);
+        let [u, v] = self.stretch.stretch(disk);
         let half = 0.5 * self.scale.float;
         ([u * half + half, v * self.scale.float], disk)
     }
@@ -152,12 +152,12 @@ impl Chart {
         let square = [self.u_of::<V>(point.column), point.row];
         let v = if matches!(self.projection, Projection::EqArea) {
             let DiskPoint { x, y, one_minus_r2, .. } =
-                self.stretch.from_square::<V>(square, self.scale, true);
+                self.stretch.unstretch::<V>(square, self.scale, true);
             // Its length is 1 up to the rounding of the roots.
             let v = Vec3::new(x, y, one_minus_r2);
             v * (V::splat(1.5) - v.length_squared() * 0.5)
         } else {
-            self.projection.from_disk(self.stretch.from_square::<V>(square, self.scale, false))
+            self.projection.unproject(self.stretch.unstretch::<V>(square, self.scale, false))
         };
         Vec3 { z: V::select(point.lower, -v.z, v.z), ..v }
     }
@@ -191,6 +191,7 @@ impl Disk {
 
 impl Formula for Disk {
     type Shape = Word;
+    const PRECISE_USE: Use = Use::Rare;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {

@@ -29,7 +29,7 @@ impl Projection {
     /// Of a unit vector with z >= 0 or, if it is to be seen `past` the equator, z <= 0. D and E may be
     /// wrong unless `needs_d`.
     #[inline(always)]
-    pub(super) fn to_disk<V: Simd>(self, v: Vec3<V>, past: bool, needs_d: bool) -> DiskPoint<V> {
+    pub(super) fn project<V: Simd>(self, v: Vec3<V>, past: bool, needs_d: bool) -> DiskPoint<V> {
         match self {
             Projection::Stereo => {
                 let k = V::splat(1.0) / one_plus_z(v, past);
@@ -59,7 +59,7 @@ impl Projection {
 
     /// x^2 + y^2 may be up to 2.
     #[inline(always)]
-    pub(super) fn from_disk<V: Simd>(self, point: DiskPoint<V>) -> Vec3<V> {
+    pub(super) fn unproject<V: Simd>(self, point: DiskPoint<V>) -> Vec3<V> {
         let DiskPoint { x, y, one_minus_r2, two_minus_r2 } = point;
         match self {
             Projection::Stereo => Vec3::new(x + x, y + y, one_minus_r2).normalize(),

@@ -192,7 +192,7 @@ impl<V: Simd> Search<V> {
                 let u = V::from_int(self.chart.u_of::<V>(column));
                 let across = sqrt((rr - u * u).max(0.0)).negate_where_negative(row);
                 let place = DiskPoint { x: u * inverse, y: across * inverse, ..disk };
-                let there = self.chart.projection.from_disk(place);
+                let there = self.chart.projection.unproject(place);
                 let there = Vec3 { z: V::select(lower, -there.z, there.z), ..there };
                 let near = there.distance_squared(v).le(self.closest.distance_squared() * 4.0);
                 let counts = open & exists & near;

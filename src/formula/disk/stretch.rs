@@ -48,7 +48,7 @@ impl Stretch {
     }
 
     #[inline(always)]
-    pub(super) fn to_square<V: Simd>(self, point: DiskPoint<V>) -> [V; 2] {
+    pub(super) fn stretch<V: Simd>(self, point: DiskPoint<V>) -> [V; 2] {
         let DiskPoint { x, y, one_minus_r2, .. } = point;
         match self {
             Stretch::Plain => [x, y],
@@ -71,7 +71,7 @@ impl Stretch {
 
     /// Of integers from -M to M, with x and y times sqrt(E) if `by_root_e`. Exact where D or E is zero.
     #[inline(always)]
-    pub(super) fn from_square<V: Simd>(
+    pub(super) fn unstretch<V: Simd>(
         self,
         square: [V::Int; 2],
         scale: Scale,

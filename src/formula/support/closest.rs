@@ -55,6 +55,18 @@ impl<V: Simd> Closest<V> {
     }
 }
 
+/// Two parameters of at most 16 bits, as one integer for [`Closest`].
+#[inline(always)]
+pub(crate) fn join<V: Simd>([u, w]: [V::Int; 2]) -> V::Int {
+    u.low_bits(16) | w.shl(16)
+}
+
+/// The parameters of [`join`].
+#[inline(always)]
+pub(crate) fn split<V: Simd>(joined: V::Int) -> [V::Int; 2] {
+    [joined.sign_extend(16), joined.shr_arithmetic(16)]
+}
+
 /// floor(x) and ceil(x), the nearer one first. For an integer, the other one is below.
 #[inline(always)]
 pub(crate) fn floor_and_ceil<V: Simd>(x: V) -> [V::Int; 2] {

@@ -1,0 +1,415 @@
+//! The values that each component may have.
+
+use crate::batch::storage::{CodeShape, Word, Words3};
+use crate::formula::support::bits::{snorm_max, unorm_max};
+use crate::formula::support::half;
+use crate::simd::math::inv_sqrt;
+use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map3};
+
+/// The values that each component may have, and where they are in a code.
+pub(crate) trait Grid: Copy + Send + Sync + 'static {
+    type Shape: CodeShape;
+    /// Whether f32 tells all directions of the grid apart.
+    const DISTINCT: bool;
+
+    /// From one grid point to the next, in steps.
+    fn pitch(self) -> i32;
+    /// Points whose length is below steps / shorter need no search, as a multiple is a point: of whole
+    /// steps twice as long, of odd ones three times.
+    #[inline(always)]
+    fn shorter(self) -> i32 {
+        self.pitch() * (self.pitch() + 1)
+    }
+    /// Steps from 0 to 1 on each axis.
+    fn steps(self) -> [f32; 3];
+    /// One step on each axis.
+    fn step(self) -> [f32; 3];
+    /// Number of values that the search for the largest component tries.
+    fn lengths(self) -> i32;
+    /// Whether the grid is as fine in z as in x.
+    fn is_even(self) -> bool;
+
+    /// The `n`th value for the largest component, `n` from 1 to [`lengths`](Grid::lengths).
+    fn length<V: Simd>(self, n: V, step: V) -> V;
+    /// Nearest grid point, ties to even.
+    fn nearest<V: Simd>(self, x: V, steps: f32) -> V::Int;
+    fn value<V: Simd>(self, i: V::Int, step: f32) -> V;
+    /// Distance of `x` from the nearest value, up to rounding in f32.
+    fn off<V: Simd>(self, x: V, steps: V, step: V) -> V;
+    /// At most half the distance between the two values around `x`.
+    fn half_gap<V: Simd>(self, x: V, step: f32) -> V;
+    /// Of the points in the direction of `point`, which is not zero, the one whose length is
+    /// nearest to 1.
+    fn representative<V: Simd>(self, point: Vec3<V::Int>) -> Vec3<V::Int>;
+    fn pack<V: Simd>(self, point: Vec3<V::Int>) -> <Self::Shape as CodeShape>::In<V>;
+    fn unpack<V: Simd>(self, code: <Self::Shape as CodeShape>::In<V>) -> Vec3<V::Int>;
+}
+
+/// Integers over a number of steps: all of them, snorm, or the odd ones, biased unorm.
+#[derive(Clone, Copy)]
+pub(crate) struct Steps {
+    bits: [u32; 3],
+    is_odd: bool,
+    steps: [f32; 3],
+    step: [f32; 3],
+    lengths: i32,
+    uneven: Option<Uneven>,
+}
+
+impl Steps {
+    /// Of so many bits for x, y and z. None has more than x.
+    pub(super) const fn snorm(bits: [u32; 3]) -> Self {
+        let steps =
+            [snorm_max(bits[0]) as f32, snorm_max(bits[1]) as f32, snorm_max(bits[2]) as f32];
+        Steps {
+            bits,
+            is_odd: false,
+            steps,
+            step: [1.0 / steps[0], 1.0 / steps[1], 1.0 / steps[2]],
+            lengths: snorm_max(bits[0]),
+            uneven: if bits[2] < bits[0] { Some(Uneven::new(bits)) } else { None },
+        }
+    }
+
+    /// (c + 1) / 2: the odd numbers from -(2^bits - 1). No component is zero.
+    pub(super) const fn unorm(bits: u32) -> Self {
+        let steps = unorm_max(bits) as f32;
+        Steps {
+            bits: [bits; 3],
+            is_odd: true,
+            steps: [steps; 3],
+            step: [1.0 / steps; 3],
+            lengths: (unorm_max(bits) + 1) / 2,
+            uneven: None,
+        }
+    }
+
+    pub(super) const fn bits(self) -> [u32; 3] {
+        self.bits
+    }
+
+    /// What is stored of a point. Bits above the field's may be set.
+    #[inline(always)]
+    fn fields_of<V: Simd>(self, point: Vec3<V::Int>) -> Vec3<V::Int> {
+        if self.is_odd {
+            let max = unorm_max(self.bits[0]);
+            map_vec!(point, |i| (i + max).shr_arithmetic(1))
+        } else {
+            point
+        }
+    }
+
+    /// The point of what is stored, with anything above the fields' bits.
+    #[inline(always)]
+    fn point_of<V: Simd>(self, fields: Vec3<V::Int>) -> Vec3<V::Int> {
+        if self.is_odd {
+            let bits = self.bits[0];
+            map_vec!(fields, |index| index.low_bits(bits).shl(1) - unorm_max(bits))
+        } else {
+            Vec3::from(map3!([0, 1, 2], |i: usize| {
+                let bits = self.bits[i];
+                fields[i].sign_extend(bits).max(-snorm_max(bits))
+            }))
+        }
+    }
+}
+
+impl Grid for Steps {
+    type Shape = Word;
+    const DISTINCT: bool = true;
+
+    #[inline(always)]
+    fn pitch(self) -> i32 {
+        1 + i32::from(self.is_odd)
+    }
+    #[inline(always)]
+    fn steps(self) -> [f32; 3] {
+        self.steps
+    }
+    #[inline(always)]
+    fn step(self) -> [f32; 3] {
+        self.step
+    }
+    #[inline(always)]
+    fn lengths(self) -> i32 {
+        self.lengths
+    }
+    #[inline(always)]
+    fn is_even(self) -> bool {
+        self.uneven.is_none()
+    }
+    #[inline(always)]
+    fn length<V: Simd>(self, n: V, step: V) -> V {
+        if self.is_odd { (n + n - 1.0) * step } else { n * step }
+    }
+    #[inline(always)]
+    fn nearest<V: Simd>(self, x: V, steps: f32) -> V::Int {
+        if self.is_odd {
+            let half = steps * 0.5;
+            (x * half + half).round_int().shl(1) - unorm_max(self.bits[0])
+        } else {
+            (x * steps).round_int()
+        }
+    }
+    #[inline(always)]
+    fn value<V: Simd>(self, i: V::Int, step: f32) -> V {
+        V::from_int(i) * step
+    }
+    #[inline(always)]
+    fn off<V: Simd>(self, x: V, steps: V, step: V) -> V {
+        if self.is_odd {
+            let places = (x * steps - 1.0) * 0.5;
+            (places - places.round()).abs() * (step + step)
+        } else {
+            let places = x * steps;
+            (places - places.round()).abs() * step
+        }
+    }
+    #[inline(always)]
+    fn half_gap<V: Simd>(self, _: V, step: f32) -> V {
+        V::splat(step * (0.49 * self.pitch() as f32))
+    }
+    #[inline(always)]
+    fn representative<V: Simd>(self, point: Vec3<V::Int>) -> Vec3<V::Int> {
+        let divisor = gcd(map_vec!(point, |i| V::from_int(i.abs())));
+        let primitive = map_vec!(point, |i| V::from_int(i) / divisor);
+        let [x, y, z] = self.step;
+        let values = Vec3::new(primitive.x * x, primitive.y * y, primitive.z * z);
+        // As many times as bring it nearest to 1, but not beyond the grid.
+        let times = inv_sqrt(values.length_squared());
+        let steps = self.steps;
+        let room = Vec3::from(map3!([0, 1, 2], |i: usize| {
+            V::splat(steps[i] + 0.5) / primitive[i].abs().max(0.01)
+        }));
+        let room = room.min_component();
+        let times = if let Some(uneven) = self.uneven {
+            // Too close for f32 between twice and three times (244, 328, 9) of snorm11-11-10, for one.
+            let less = times.floor();
+            let half_more = (less + less).round_int() + 1;
+            let more = uneven.is_below_two::<V>(primitive.round_int(), half_more);
+            V::select(more, less + 1.0, less).min(room.floor())
+        } else if !self.is_odd {
+            times.round().min(room.floor())
+        } else {
+            // Odd points have only odd multiples.
+            let pairs = ((times - 1.0) * 0.5).round().min(((room - 1.0) * 0.5).floor());
+            pairs + pairs + 1.0
+        };
+        (primitive * times).round_int()
+    }
+    #[inline(always)]
+    fn pack<V: Simd>(self, point: Vec3<V::Int>) -> V::Int {
+        let [x, y, z] = self.bits;
+        let fields = self.fields_of::<V>(point);
+        fields.x.low_bits(x) | fields.y.low_bits(y).shl(x) | fields.z.low_bits(z).shl(x + y)
+    }
+    #[inline(always)]
+    fn unpack<V: Simd>(self, code: V::Int) -> Vec3<V::Int> {
+        let [x, y, _] = self.bits;
+        self.point_of::<V>(Vec3::new(code, code.shr_logical(x), code.shr_logical(x + y)))
+    }
+}
+
+/// 16 bits each, in words of their own.
+#[derive(Clone, Copy)]
+pub(crate) enum Fine {
+    Steps(Steps),
+    /// IEEE halves. The largest component of a canonical code is from 0.5 to 1.
+    Halves,
+}
+
+impl Grid for Fine {
+    type Shape = Words3;
+    const DISTINCT: bool = false;
+
+    #[inline(always)]
+    fn pitch(self) -> i32 {
+        match self {
+            Fine::Steps(steps) => steps.pitch(),
+            Fine::Halves => 1,
+        }
+    }
+    #[inline(always)]
+    fn steps(self) -> [f32; 3] {
+        match self {
+            Fine::Steps(steps) => steps.steps(),
+            Fine::Halves => [1.0; 3],
+        }
+    }
+    #[inline(always)]
+    fn step(self) -> [f32; 3] {
+        match self {
+            Fine::Steps(steps) => steps.step(),
+            Fine::Halves => [1.0; 3],
+        }
+    }
+    #[inline(always)]
+    fn lengths(self) -> i32 {
+        match self {
+            Fine::Steps(steps) => steps.lengths(),
+            Fine::Halves => 1025,
+        }
+    }
+    #[inline(always)]
+    fn is_even(self) -> bool {
+        true
+    }
+    #[inline(always)]
+    fn length<V: Simd>(self, n: V, step: V) -> V {
+        match self {
+            Fine::Steps(steps) => steps.length(n, step),
+            Fine::Halves => (n + 1023.0) * (1.0 / 2048.0),
+        }
+    }
+    #[inline(always)]
+    fn nearest<V: Simd>(self, x: V, steps_to_one: f32) -> V::Int {
+        match self {
+            Fine::Steps(steps) => steps.nearest(x, steps_to_one),
+            Fine::Halves => half::nearest(x),
+        }
+    }
+    #[inline(always)]
+    fn value<V: Simd>(self, i: V::Int, step: f32) -> V {
+        match self {
+            Fine::Steps(steps) => steps.value(i, step),
+            Fine::Halves => half::value(i),
+        }
+    }
+    #[inline(always)]
+    fn off<V: Simd>(self, x: V, steps_to_one: V, step: V) -> V {
+        match self {
+            Fine::Steps(steps) => steps.off(x, steps_to_one, step),
+            Fine::Halves => (half::value::<V>(half::nearest(x)) - x).abs(),
+        }
+    }
+    #[inline(always)]
+    fn half_gap<V: Simd>(self, x: V, step: f32) -> V {
+        match self {
+            Fine::Steps(steps) => steps.half_gap(x, step),
+            Fine::Halves => x.abs() * (0.99 / 4096.0),
+        }
+    }
+    #[inline(always)]
+    fn representative<V: Simd>(self, point: Vec3<V::Int>) -> Vec3<V::Int> {
+        match self {
+            Fine::Steps(steps) => steps.representative::<V>(point),
+            Fine::Halves => representative_half::<V>(point),
+        }
+    }
+    #[inline(always)]
+    fn pack<V: Simd>(self, point: Vec3<V::Int>) -> [V::Int; 3] {
+        match self {
+            Fine::Steps(steps) => steps.fields_of::<V>(point).to_array(),
+            Fine::Halves => map3!(point.to_array(), |i| half::to_bits::<V>(i)),
+        }
+    }
+    #[inline(always)]
+    fn unpack<V: Simd>(self, code: [V::Int; 3]) -> Vec3<V::Int> {
+        match self {
+            Fine::Steps(steps) => steps.point_of::<V>(Vec3::from(code)),
+            Fine::Halves => {
+                Vec3::from(map3!(code, |bits| half::from_bits::<V>(bits, half::GREATEST)))
+            }
+        }
+    }
+}
+
+/// [`Grid::representative`] of halves.
+#[inline(always)]
+fn representative_half<V: Simd>(point: Vec3<V::Int>) -> Vec3<V::Int> {
+    // Each value is an odd integer times a power of two, or zero.
+    let values = map_vec!(point, |i| half::value::<V>(i));
+    let odd = map_vec!(point, |i| {
+        let mantissa = half::mantissa::<V>(i);
+        V::from_int(mantissa) / V::from_int(mantissa & -mantissa).max(1.0)
+    });
+    let divisor = gcd(odd);
+    let primitive = map_vec!(values, |c| c / divisor);
+    // So many times, and powers of two, keep all mantissas below 2^11.
+    let room = (divisor * 2047.5 / odd.max_component()).floor();
+    let times = inv_sqrt(primitive.length_squared());
+    // The least power of two for which that is enough, but none that would cut below 2^-24.
+    let over = times / room;
+    let power = V::from_bits((over.to_bits() + 0x7F_FFFF) & 0x7F80_0000);
+    let units = Vec3::from(map3!([0, 1, 2], |i: usize| {
+        let unit = values[i].abs() / odd[i].max(1.0);
+        V::select(odd[i].le(0.0), 1.0, unit)
+    }));
+    let finest = V::splat(1.0 / 16_777_216.0) / units.min_component();
+    let power = power.max(finest);
+    // Either a multiple of that power, or the greatest multiple of the one below.
+    let at_power = (times / power).round() * power;
+    let below = room * power * 0.5;
+    let use_below = (times - below).abs().lt((at_power - times).abs()) & finest.lt(power);
+    let power = V::select(use_below, power * 0.5, power);
+    let times = V::select(use_below, room, (times / power).round());
+    // The largest component is 1 at most.
+    let largest = map_vec!(primitive, |c| (c * power).abs()).max_component();
+    let too_long = V::splat(1.0).lt(largest * times);
+    let times = V::select(too_long, times - 1.0, times);
+    let times = V::select(times.lt(0.5), 0.5, times);
+    map_vec!(primitive, |c| half::nearest(c * power * times))
+}
+
+/// Steps of which z has fewer than x and y.
+#[derive(Clone, Copy)]
+pub(crate) struct Uneven {
+    /// Steps of z, squared.
+    least: i32,
+    /// (steps of x / steps of z)^2 = whole + rest / least.
+    whole: i32,
+    rest: i32,
+    /// 4 (steps of x)^2.
+    limit: i32,
+    /// A bound on what is added for `rest`, times -1 / least.
+    least_over: i32,
+}
+
+impl Uneven {
+    const fn new(bits: [u32; 3]) -> Self {
+        let (most, least) = (snorm_max(bits[0]) as i64, snorm_max(bits[2]) as i64);
+        let (most, least) = (most * most, least * least);
+        let (whole, rest) = (most / least, most % least);
+        Uneven {
+            least: least as i32,
+            whole: whole as i32,
+            rest: rest as i32,
+            limit: (4 * most) as i32,
+            least_over: -(rest * (4 * most / whole) / least + 1) as i32,
+        }
+    }
+
+    /// Whether `times` times a point is shorter than 2, exactly.
+    #[inline(always)]
+    fn is_below_two<V: Simd>(self, point: Vec3<V::Int>, times: V::Int) -> V::Mask {
+        // In steps of x: (x^2 + y^2 + whole z^2 + rest z^2 / least) times^2 < limit.
+        let square = times * times;
+        let Vec3 { x, y, z } = map_vec!(point, |i| i * i * square);
+        // Below zero it decides, except for the rest, which is added to no more than that can outweigh.
+        let over = x + y + z * self.whole - self.limit;
+        let over_with_rest = over.max(self.least_over) * self.least + z * self.rest;
+        over.lt(0) & over_with_rest.lt(0)
+    }
+}
+
+/// The greatest common divisor of three integers from 0 to 2^16, not all of them zero.
+#[inline(always)]
+fn gcd<V: Simd>(numbers: Vec3<V>) -> V {
+    /// What is left of x, or what it lacks of one more divisor.
+    #[inline(always)]
+    fn rest<V: Simd>(x: V, by: V, per: V) -> V {
+        (x - (x * per).round() * by).abs()
+    }
+    let zero = V::splat(0.0);
+    let Vec3 { x: mut a, y: mut b, z: mut c } = numbers;
+    loop {
+        let (least, most) = (b.min(c), b.max(c));
+        if !zero.lt(most).any() {
+            return a;
+        }
+        // By the least that is not zero.
+        let by = V::select(zero.lt(least), least, V::select(zero.lt(most), most, a));
+        let per = V::splat(1.0) / by;
+        (a, b, c) = (by, rest(a, by, per), rest(most, by, per));
+    }
+}
