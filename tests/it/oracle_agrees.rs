@@ -100,7 +100,7 @@ fn nearest_count(format: Format) -> usize {
         "snorm8x3" => 100_000,
         // Each with every code.
         _ if format.bits() <= 16 => 1_000,
-        _ => 20_000,
+        _ => 8_000,
     }
 }
 
