@@ -175,7 +175,7 @@ impl<'a> FormatTable<'a> {
     /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
     pub fn decode_bytes(&self, bytes: &[u8], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
         let size = self.format.code_size();
-        LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
+        LengthMismatch::check_bytes([v.x.len(), v.y.len(), v.z.len()], bytes.len(), size)?;
         if size == 1 {
             look_up_soa(bytes, v, |&code| self.decode(code.into()))
         } else {

@@ -49,83 +49,63 @@ pub enum LengthMismatch {
 
 impl LengthMismatch {
     #[inline]
+    fn unless(self, fits: bool) -> Result<(), Self> {
+        if fits { Ok(()) } else { Err(self) }
+    }
+
+    #[inline]
     pub(crate) fn check_soa(x: usize, y: usize, z: usize, codes: usize) -> Result<(), Self> {
-        if x == codes && y == codes && z == codes {
-            Ok(())
-        } else {
-            Err(LengthMismatch::Soa { x, y, z, codes })
-        }
+        Self::Soa { x, y, z, codes }.unless([x, y, z] == [codes; 3])
     }
 
     #[inline]
     pub(crate) fn check_aos(vectors: usize, codes: usize) -> Result<(), Self> {
-        if vectors == codes { Ok(()) } else { Err(LengthMismatch::Aos { vectors, codes }) }
+        Self::Aos { vectors, codes }.unless(vectors == codes)
     }
 
     #[inline]
     pub(crate) fn check_bytes(
-        x: usize,
-        y: usize,
-        z: usize,
+        [x, y, z]: [usize; 3],
         bytes: usize,
         code_size: usize,
     ) -> Result<(), Self> {
-        if x == y && y == z && x.checked_mul(code_size) == Some(bytes) {
-            Ok(())
-        } else {
-            Err(LengthMismatch::Bytes { x, y, z, bytes, code_size })
-        }
+        let fits = [y, z] == [x; 2] && x.checked_mul(code_size) == Some(bytes);
+        Self::Bytes { x, y, z, bytes, code_size }.unless(fits)
     }
 
     #[inline]
     pub(crate) fn check_transcode(src: usize, dst: usize) -> Result<(), Self> {
-        if src == dst { Ok(()) } else { Err(LengthMismatch::Transcode { src, dst }) }
+        Self::Transcode { src, dst }.unless(src == dst)
     }
 
     #[inline]
     pub(crate) fn check_values(values: usize, codes: usize) -> Result<(), Self> {
-        if values == codes { Ok(()) } else { Err(LengthMismatch::Values { values, codes }) }
+        Self::Values { values, codes }.unless(values == codes)
     }
 
     #[inline]
     pub(crate) fn check_tagged(codes: usize, tags: usize, words: usize) -> Result<(), Self> {
-        if codes == words && tags == words {
-            Ok(())
-        } else {
-            Err(LengthMismatch::Tagged { codes, tags, words })
-        }
+        Self::Tagged { codes, tags, words }.unless([codes, tags] == [words; 2])
     }
 
     #[inline]
     pub(crate) fn check_table(vectors: usize, entries: Option<usize>) -> Result<(), Self> {
-        if entries == Some(vectors) {
-            Ok(())
-        } else {
-            Err(LengthMismatch::Table { vectors, entries })
-        }
+        Self::Table { vectors, entries }.unless(entries == Some(vectors))
     }
 
     #[inline]
     pub(crate) fn check_signs(values: usize, bytes: usize) -> Result<(), Self> {
-        if values.div_ceil(8) == bytes {
-            Ok(())
-        } else {
-            Err(LengthMismatch::Dense { codes: values, bytes, bits: 1 })
-        }
+        Self::Dense { codes: values, bytes, bits: 1 }.unless(values.div_ceil(8) == bytes)
     }
 
     #[inline]
     pub(crate) fn check_quaternions([x, y, z, w]: [usize; 4], codes: usize) -> Result<(), Self> {
-        if x == codes && y == codes && z == codes && w == codes {
-            Ok(())
-        } else {
-            Err(LengthMismatch::Quaternions { x, y, z, w, codes })
-        }
+        Self::Quaternions { x, y, z, w, codes }.unless([x, y, z, w] == [codes; 4])
     }
 
     #[inline]
     pub(crate) fn check_angles(x: usize, y: usize, codes: usize) -> Result<(), Self> {
-        if x == codes && y == codes { Ok(()) } else { Err(LengthMismatch::Angles { x, y, codes }) }
+        Self::Angles { x, y, codes }.unless([x, y] == [codes; 2])
     }
 
     #[inline]
@@ -135,11 +115,8 @@ impl LengthMismatch {
         handedness: usize,
         codes: usize,
     ) -> Result<(), Self> {
-        if normal == [codes; 3] && tangent == [codes; 3] && handedness == codes {
-            Ok(())
-        } else {
-            Err(LengthMismatch::FrameSoa { normal, tangent, handedness, codes })
-        }
+        let fits = [normal, tangent] == [[codes; 3]; 2] && handedness == codes;
+        Self::FrameSoa { normal, tangent, handedness, codes }.unless(fits)
     }
 
     #[inline]
@@ -148,11 +125,7 @@ impl LengthMismatch {
         tangents: usize,
         codes: usize,
     ) -> Result<(), Self> {
-        if normals == codes && tangents == codes {
-            Ok(())
-        } else {
-            Err(LengthMismatch::FrameAos { normals, tangents, codes })
-        }
+        Self::FrameAos { normals, tangents, codes }.unless([normals, tangents] == [codes; 2])
     }
 }
 

@@ -38,8 +38,8 @@
 //!
 //! # Promises
 //! The [crate's](crate#promises) hold here too:
-//! - Any input encodes. Of normal and tangent only the direction matters; an infinite component stands
-//!   for the limit direction. A normal that is zero or NaN counts as +Z. What is encoded of the tangent
+//! - Any input encodes. Of normal and tangent only the direction matters; an infinite component means
+//!   the limit direction. A normal that is zero or NaN counts as +Z. What is encoded of the tangent
 //!   is its part across the normal; if there is none, since the tangent is zero, NaN or within 1e-6
 //!   radians of the normal or its opposite, it is the first vector of the basis above.
 //! - A handedness below 0 is -1, and anything else, zero and NaN too, is +1. It always survives.

@@ -15,7 +15,7 @@ use crate::simd::{I32x1, Simd, Vec3};
 
 /// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
 ///
-/// In bytes, the first of eight values stands in the lowest bit.
+/// In bytes, the first of eight values is the lowest bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Sign;
 
@@ -63,7 +63,7 @@ impl Sign {
 /// 2D: an angle in `BITS` bits, from 1 to 24. Code k is the direction of k / 2^`BITS` turns, from +X
 /// over +Y.
 ///
-/// No code of so many bits is better: the greatest error is half a step, pi / 2^`BITS` radians or
+/// No code of that size is better: the greatest error is half a step, pi / 2^`BITS` radians or
 /// 180 / 2^`BITS` degrees, and 1.3e-7 radians of `f32` rounding; the mean is half of that. The axes
 /// survive exactly, +-Y from two bits on. Every code is canonical: it encodes back to itself.
 ///

@@ -1,8 +1,8 @@
 //! Packing codes more tightly than their integers: pairs of 12 bits in RGB8 texels, three fields in
 //! a word, and streams without gaps.
 //!
-//! Fields of a word stand with the first in the low bits, as the components of
-//! [`Snorm10x3`](crate::Snorm10x3) and [`Snorm11_11_10`](crate::Snorm11_11_10) do. Bits of an input
+//! The first field of a word is in the low bits, as the components of
+//! [`Snorm10x3`](crate::Snorm10x3) and [`Snorm11_11_10`](crate::Snorm11_11_10) are. Bits of an input
 //! above its width are ignored.
 //!
 //! ```
@@ -276,7 +276,7 @@ const fn field(word: u32, first: u32, bits: u32) -> u16 {
     (word >> first & ((1 << bits) - 1)) as u16
 }
 
-/// How many bytes so many codes of `bits` bits take without gaps: `count * bits / 8`, rounded up.
+/// Number of bytes that `count` codes of `bits` bits take without gaps: `count * bits / 8`, rounded up.
 /// `usize::MAX` if it is more than that.
 #[inline]
 pub const fn dense_len(bits: u32, count: usize) -> usize {

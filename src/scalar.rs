@@ -9,7 +9,7 @@
 //!
 //! Encoding gives the code nearest to the number, ties to even, and decoding the `f32` nearest to
 //! the exact quotient: neither has any other error. Therefore every code that an encoder emits
-//! comes back from its decoded value. Codes stand in the low `BITS` bits, signed ones in two's
+//! comes back from its decoded value. Codes are the low `BITS` bits, signed ones in two's
 //! complement; the bits above are zero in encoding and ignored in decoding.
 //!
 //! Sources: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
@@ -59,8 +59,7 @@ pub trait Scalar: Copy + 'static {
     /// The code nearest to `x`, ties to even. What is out of range is clamped; NaN is taken as 0.
     fn encode(x: f32) -> u32;
 
-    /// The `f32` nearest to what the low [`BITS`](Scalar::BITS) bits of `code`, any pattern, stand
-    /// for.
+    /// The `f32` nearest to the value of the low [`BITS`](Scalar::BITS) bits of `code`, any pattern.
     fn decode(code: u32) -> f32;
 
     /// [`encode`](Scalar::encode) for slices. Codes that do not fit their integer do not compile:

@@ -1,4 +1,4 @@
-//! The integers that codes stand in.
+//! Integer types that hold a code.
 
 use bytemuck::Pod;
 
@@ -9,7 +9,7 @@ impl CodeInt for u8 {}
 impl CodeInt for u16 {}
 impl CodeInt for u32 {}
 
-/// Whether codes of so many bits fit.
+/// Whether codes of a number of bits fit.
 pub(crate) const fn holds<C>(bits: u32) -> bool {
     size_of::<C>() as u32 * 8 >= bits
 }

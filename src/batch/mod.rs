@@ -75,7 +75,7 @@ impl<K: Kernel<I, O>, I: Input, O: Output> BatchLoop for Loop<'_, '_, K, I, O> {
     }
 }
 
-/// What runs over so many whole blocks.
+/// A kernel over a number of whole blocks.
 type BlocksKernel<'k, I, O> =
     &'k dyn Fn(<I as Input>::Slices<'_>, <O as Output>::Slices<'_>, usize);
 

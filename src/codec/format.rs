@@ -25,7 +25,7 @@ impl Format {
     /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
     pub fn encode(self, v: Soa<'_>, bytes: &mut [u8]) -> Result<(), LengthMismatch> {
         let size = self.code_size();
-        LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
+        LengthMismatch::check_bytes([v.x.len(), v.y.len(), v.z.len()], bytes.len(), size)?;
         self.encode_batch(v.into(), CodesMut::little_endian(bytes, size));
         Ok(())
     }
@@ -39,7 +39,7 @@ impl Format {
     /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
     pub fn encode_precise(self, v: Soa<'_>, bytes: &mut [u8]) -> Result<(), LengthMismatch> {
         let size = self.code_size();
-        LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
+        LengthMismatch::check_bytes([v.x.len(), v.y.len(), v.z.len()], bytes.len(), size)?;
         self.encode_batch_precise(v.into(), CodesMut::little_endian(bytes, size));
         Ok(())
     }
@@ -52,7 +52,7 @@ impl Format {
     /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
     pub fn decode(self, bytes: &[u8], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
         let size = self.code_size();
-        LengthMismatch::check_bytes(v.x.len(), v.y.len(), v.z.len(), bytes.len(), size)?;
+        LengthMismatch::check_bytes([v.x.len(), v.y.len(), v.z.len()], bytes.len(), size)?;
         self.decode_batch(Codes::little_endian(bytes, size), v.into());
         Ok(())
     }

@@ -22,11 +22,11 @@ pub(crate) use table::codec_table;
 /// pattern decodes to a unit vector; all entry points give the same bits.
 ///
 /// # Bit layout
-/// The first parameter stands in the low bits, in two's complement if it is snorm. Snorm counts from
+/// The first parameter is in the low bits, in two's complement if it is snorm. Snorm counts from
 /// -M to M, with M = 2^(b-1) - 1 for b bits; the pattern -M-1 reads as -M. A code narrower than its
 /// integer leaves the high bits zero, and decoding ignores them.
 ///
-/// Two parameters u and v of 12 bits stand in three bytes as the survey's RGB8 has them:
+/// Two parameters u and v of 12 bits are three bytes, as in the survey's RGB8:
 /// `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`. Snorm ones are then biased: u and v plus 2047, where
 /// 4095 reads as 4094. All other codes of three bytes are integers in little-endian order.
 ///

@@ -25,7 +25,7 @@ pub struct ErrorReport {
 }
 
 impl ErrorReport {
-    /// The errors of `codes`, which stand for the vectors `v`: each angle to 5e-7 of itself, sums in double
+    /// The errors of `codes`, the codes of the vectors `v`: each angle to 5e-7 of itself, sums in double
     /// precision.
     ///
     /// Vectors may have any length; as in encoding, zero and NaN count as +Z, and an infinite component as the

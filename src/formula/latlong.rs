@@ -6,7 +6,7 @@
 //!            index = points on earlier parallels + k
 //! ```
 //!
-//! latlongD has so many points on each parallel that its cells are about as wide as high; F
+//! latlongD has as many points on each parallel as make its cells about as wide as high; F
 //! minimises the total for a given e, and e is the least with which all points fit into BITS bits:
 //! 227, 3 629 and 58 073 parallels with 65 536, 16 777 216 and 4 294 967 295 points. A table of 4
 //! bytes a parallel (1, 15 and 232 KB) holds where each begins. Decoding guesses the parallel from

@@ -29,7 +29,7 @@ pub(crate) const MAX_LANES: usize = 16;
 
 /// A SIMD vector of `f32`.
 ///
-/// A number on the right of an operator, or as an argument, stands for a vector of that number.
+/// A number on the right of an operator, or as an argument, means a vector of that number.
 pub(crate) trait Simd:
     Copy
     + 'static
@@ -315,6 +315,17 @@ pub(crate) trait SimdMask:
     fn splat(value: bool) -> Self;
     /// Whether it holds in any lane.
     fn any(self) -> bool;
+}
+
+/// Calls `f` with 0 to N - 1. An iterator's checks in debug builds would keep the loop from being
+/// vectorised.
+#[inline(always)]
+fn each<const N: usize>(mut f: impl FnMut(usize)) {
+    let mut i = 0;
+    while i < N {
+        f(i);
+        i += 1;
+    }
 }
 
 /// One lane of [`Simd::gather`].

@@ -57,7 +57,7 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// Of so many bits for x, y and z. None has more than x.
+    /// Snorm with a number of bits for x, y and z. None has more than x.
     pub(super) const fn snorm(bits: [u32; 3]) -> Self {
         let steps =
             [snorm_max(bits[0]) as f32, snorm_max(bits[1]) as f32, snorm_max(bits[2]) as f32];
@@ -71,7 +71,7 @@ impl Steps {
         }
     }
 
-    /// (c + 1) / 2: the odd numbers from -(2^bits - 1). No component is zero.
+    /// Biased unorm, (c + 1) / 2: the odd numbers from -(2^bits - 1). No component is zero.
     pub(super) const fn unorm(bits: u32) -> Self {
         let steps = unorm_max(bits) as f32;
         Steps {

@@ -5,7 +5,7 @@
 //! decode   the three values, divided by their length; (0, 0, 0) reads as +Z
 //! ```
 //!
-//! Decoding divides by the length, so a grid point stands for its direction, and the precise
+//! Decoding divides by the length, so a grid point means its direction, and the precise
 //! encoder may take any length: it tries every value of the largest component, rounding the other
 //! two, and keeps the nearest direction. From each value to the next the other two components, in
 //! steps of the grid, grow by the same amount; in fixed point, with nothing before the point, what
@@ -46,11 +46,12 @@ pub(crate) type Xyz = Cartesian<Steps>;
 pub(crate) type Xyz16 = Cartesian<Fine>;
 
 impl Xyz {
-    /// Of so many bits for x, y and z. None has more than x.
+    /// Snorm with a number of bits for x, y and z. None has more than x.
     pub(crate) const fn snorm(bits: [u32; 3]) -> Self {
         Cartesian(Steps::snorm(bits))
     }
 
+    /// Biased unorm with `bits` bits for each.
     pub(crate) const fn unorm(bits: u32) -> Self {
         Cartesian(Steps::unorm(bits))
     }

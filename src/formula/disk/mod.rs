@@ -15,7 +15,7 @@
 //! as many rows. Plain uses the disk alone; its codes outside decode past the equator, and the
 //! precise encoder uses them.
 //!
-//! Between projection and stretch stand (X, Y), D = 1 - X^2 - Y^2 and E = 2 - X^2 - Y^2, each known to
+//! Projection and stretch exchange (X, Y), D = 1 - X^2 - Y^2 and E = 2 - X^2 - Y^2, each known to
 //! full precision where it is small: D near the rim, E near the square's corners, which are eqarea's
 //! other pole. With D the ellipse's inverse is well conditioned at the corners of the square:
 //!
@@ -23,7 +23,7 @@
 //! q^2 = (2 + X^2 - Y^2)^2 - 8 X^2 = 4 D + (X^2 - Y^2)^2;  u = 2 X / sqrt(2 + X^2 - Y^2 + q), v = 2 Y / sqrt(2 - X^2 + Y^2 + q)
 //! ```
 //!
-//! Canonical: a point of the equator belongs to the upper hemisphere; one that stands in both
+//! Canonical: a point of the equator belongs to the upper hemisphere; one that is in both
 //! squares, as eight do in plain eqdist20 and 24, to its own, and so do the few of the plain 32-bit
 //! formats whose vectors in f32 are the same; a pole in a corner of plain eqarea is the one with u > 0
 //! and v > 0. Of the axes, +-X survive exactly, and +-Z where they are a corner.

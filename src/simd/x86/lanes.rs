@@ -12,12 +12,21 @@ use super::Token;
 use super::shuffle::{Shuffle, dense, first, spread};
 use crate::simd::operators::{operators, scalar_operators};
 use crate::simd::stream::x86::Streaming;
-use crate::simd::{Simd, SimdInt, SimdMask, look_up, look_up3, look_up4};
+use crate::simd::{Simd, SimdInt, SimdMask, each, look_up, look_up3, look_up4};
+
+/// A vector of the elements of an array. `simd_from` would copy them with checks in debug builds.
+macro_rules! from_array {
+    ($vector:ident, $token:expr, $array:expr) => {{
+        let mut vector = $vector::splat($token, Default::default());
+        *vector = $array;
+        vector
+    }};
+}
 
 /// Joins vectors of 16 bytes to one of `u8`s.
 macro_rules! join {
     (8, $token:expr, $quad:expr) => {
-        u8x16::simd_from($token, *$quad()?).combine(u8x16::simd_from($token, *$quad()?))
+        from_array!(u8x16, $token, *$quad()?).combine(from_array!(u8x16, $token, *$quad()?))
     };
     (16, $token:expr, $quad:expr) => {
         join!(8, $token, $quad).combine(join!(8, $token, $quad))
@@ -28,7 +37,7 @@ macro_rules! join {
 macro_rules! split {
     (4, $token:expr, $bytes:expr, $pick:expr, $quad:expr) => {{
         let to = $quad()?;
-        let kept = u8x16::simd_from($token, *to);
+        let kept = from_array!(u8x16, $token, *to);
         *to = *$bytes.concat_swizzle_dyn(kept, $pick);
     }};
     (8, $token:expr, $bytes:expr, $pick:expr, $quad:expr) => {{
@@ -123,7 +132,7 @@ macro_rules! lanes {
             }
             #[inline(always)]
             fn load(block: &[f32; $n]) -> Self {
-                $float($f32s::simd_from($level::assumed(), *block))
+                $float(from_array!($f32s, $level::assumed(), *block))
             }
             #[inline(always)]
             fn store(self, block: &mut [f32; $n]) {
@@ -140,27 +149,34 @@ macro_rules! lanes {
                     return Self::load_int(block, |[a, b, c]| u32::from_le_bytes([a, b, c, 0]));
                 }
                 let mut bytes = [0; 4 * $n];
-                for (to, from) in bytes.iter_mut().zip(block.as_flattened()) {
-                    *to = *from;
-                }
+                let (from, _) = block.as_flattened().as_chunks::<$n>();
+                let (to, _) = bytes.as_chunks_mut::<$n>();
+                each::<3>(
+                    #[inline(always)]
+                    |i| to[i] = from[i],
+                );
                 let pick: [u8; 4 * $n] = const { spread() };
-                $int($u8s::simd_from($level::assumed(), bytes).swizzle_dyn_precise(pick).bitcast())
+                let bytes = from_array!($u8s, $level::assumed(), bytes);
+                $int(bytes.swizzle_dyn_precise(pick).bitcast())
             }
             #[inline(always)]
             fn store_bytes(int: $int, block: &mut [[u8; 3]; $n]) {
                 let bytes: $u8s<$level> = int.0.bitcast();
                 let pick: [u8; 4 * $n] = const { dense() };
-                for (to, from) in block.as_flattened_mut().iter_mut().zip(*bytes.swizzle_dyn(pick))
-                {
-                    *to = from;
-                }
+                let bytes: [u8; 4 * $n] = *bytes.swizzle_dyn(pick);
+                let (from, _) = bytes.as_chunks::<$n>();
+                let (to, _) = block.as_flattened_mut().as_chunks_mut::<$n>();
+                each::<3>(
+                    #[inline(always)]
+                    |i| to[i] = from[i],
+                );
             }
             #[inline(always)]
             fn load_rows<const N: usize, const C: usize>(block: &[[[u8; 4]; N]; $n]) -> [Self; C] {
                 let mut columns = [$u8s::splat($level::assumed(), 0).bitcast::<$u32s<$level>>(); C];
                 let (rows, _) = block.as_flattened().as_flattened().as_chunks();
                 for (row, picks) in rows.iter().zip(&Shuffle::<N, C, $n, { 4 * $n }>::LOAD) {
-                    let row: $u32s<$level> = $u8s::simd_from($level::assumed(), *row).bitcast();
+                    let row: $u32s<$level> = from_array!($u8s, $level::assumed(), *row).bitcast();
                     for (column, pick) in columns.iter_mut().zip(picks) {
                         *column = column.concat_swizzle_dyn(row, *pick);
                     }
@@ -203,7 +219,7 @@ macro_rules! lanes {
                     }
                     if N > C {
                         let kept: $u32s<$level> =
-                            $u8s::simd_from($level::assumed(), *row).bitcast();
+                            from_array!($u8s, $level::assumed(), *row).bitcast();
                         all = all.concat_swizzle_dyn(kept, picks[C - 1]);
                     }
                     *row = *all.bitcast::<$u8s<$level>>();
@@ -231,10 +247,11 @@ macro_rules! lanes {
             #[inline(always)]
             fn load_int<B: Copy + 'static>(block: &[B; $n], f: impl Fn(B) -> u32) -> $int {
                 let mut ints = [0; $n];
-                for (i, &b) in ints.iter_mut().zip(block) {
-                    *i = f(b) as i32;
-                }
-                $int($i32s::simd_from($level::assumed(), ints))
+                each::<$n>(
+                    #[inline(always)]
+                    |i| ints[i] = f(block[i]) as i32,
+                );
+                $int(from_array!($i32s, $level::assumed(), ints))
             }
             #[inline(always)]
             fn store_int<B: Copy + 'static>(
@@ -242,9 +259,11 @@ macro_rules! lanes {
                 block: &mut [B; $n],
                 f: impl Fn(&mut B, u32),
             ) {
-                for (b, i) in block.iter_mut().zip(*int.0) {
-                    f(b, i as u32);
-                }
+                let ints = *int.0;
+                each::<$n>(
+                    #[inline(always)]
+                    |i| f(&mut block[i], ints[i] as u32),
+                );
             }
             #[inline(always)]
             fn from_bits(bits: $int) -> Self {
@@ -276,7 +295,7 @@ macro_rules! lanes {
                 for i in &mut ints {
                     *i = look_up(table, *i);
                 }
-                $int($i32s::simd_from($level::assumed(), ints))
+                $int(from_array!($i32s, $level::assumed(), ints))
             }
             #[inline(always)]
             fn gather3(table: &[[f32; 3]], index: $int) -> [Self; 3] {
