@@ -1,7 +1,8 @@
 //! Decode tables, of every code and of one octant, give the bits that the codec gives.
 #![no_main]
 
-use std::sync::{LazyLock, OnceLock};
+use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 use libfuzzer_sys::fuzz_target;
 use unitpack::Format;
@@ -15,7 +16,7 @@ use unitpack_test::{Arrays, UNWRITTEN};
 /// A table, filled when first asked for.
 struct Entry {
     table: AnyTable,
-    filled: OnceLock<Box<dyn Table>>,
+    filled: OnceCell<Box<dyn Table>>,
 }
 
 impl Entry {
@@ -28,10 +29,12 @@ impl Entry {
     }
 }
 
-static ENTRIES: LazyLock<Vec<Entry>> = LazyLock::new(|| {
-    let tables = octant_tables().into_iter().chain(whole_tables());
-    tables.map(|table| Entry { table, filled: OnceLock::new() }).collect()
-});
+thread_local! {
+    static ENTRIES: Vec<Entry> = {
+        let tables = octant_tables().into_iter().chain(whole_tables());
+        tables.map(|table| Entry { table, filled: OnceCell::new() }).collect()
+    };
+}
 
 /// The run-time table of a format, filled when first asked for.
 fn format_table(format: Format) -> &'static FormatTable<'static> {
@@ -44,7 +47,10 @@ fn format_table(format: Format) -> &'static FormatTable<'static> {
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
-    let entry = bytes.choose(&ENTRIES);
+    ENTRIES.with(|entries| check(bytes.choose(entries), bytes));
+});
+
+fn check(entry: &Entry, mut bytes: Bytes<'_>) {
     let (format, table) = (entry.table.format, entry.filled());
     let count = bytes.length(100);
     let at = bytes.length(7);
@@ -77,4 +83,4 @@ fuzz_target!(|data: &[u8]| {
     let mut soa = Arrays::unwritten([count; 3]);
     format_table(format).decode_bytes(&bytes[at..], soa.write()).unwrap();
     assert!(equal(&soa), "{format}, bytes from {at}: {soa:?}");
-});
+}

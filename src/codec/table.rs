@@ -9,9 +9,12 @@
 //!   bits, so that it has an [`OctantTable`](crate::decode_table::OctantTable);
 //! - `stochastic`: has [`StochasticRounding`](crate::dither::StochasticRounding).
 
-/// Calls a macro with all rows.
+/// Calls a macro with all rows, behind what else it is to be given.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! codec_table {
-    ($callback:ident) => { $callback! {
+    ($callback:ident) => { $crate::codec_table! { [$callback] } };
+    ([$($callback:tt)*] $($argument:tt)*) => { $($callback)*! { $($argument)*
     #[cfg(feature = "octahedral")]
     "[Octahedral](https://jcgt.org/published/0003/02/01/): the sphere unfolded from an octahedron into a square. Two snorm \
      [parameters](Codec#bit-layout)." {
@@ -214,7 +217,7 @@ macro_rules! codec_table {
         LatLong32D: u32 = "latlong32D", 32 bits, 0.002228 / 0.002205 degrees, exact "+X ±Z", LatLong::<Adaptive>::new(32);
     }
     #[cfg(feature = "spherical")]
-    "[Spherical Fibonacci](SphericalFibonacci): 2^bits points of about the same area on a spiral from +Z to -Z. The code is the \
+    "[Spherical Fibonacci](crate::SphericalFibonacci): 2^bits points of about the same area on a spiral from +Z to -Z. The code is the \
      index." {
         Fibonacci16: u16 = "fibonacci16", 16 bits, 0.6137 / 0.6137 degrees, exact "", Fibonacci::new(1 << 16);
         Fibonacci24: [u8; 3] = "fibonacci24", 24 bits, 0.03836 / 0.03836 degrees, exact "", Fibonacci::new(1 << 24);
@@ -303,3 +306,30 @@ macro_rules! codec_table {
     } };
 }
 pub(crate) use codec_table;
+
+/// Calls a macro with each codec whose row has a flag: `for_each_codec!(octant: check)` is
+/// `check!(Oct8); check!(Oct10);` and so on. The tests and tools of this repository, in which all
+/// features are on, have their lists from it.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! for_each_codec {
+    ($flag:ident: $callback:ident) => {
+        $crate::codec_table! { [$crate::for_each_codec] @rows [$flag $callback] }
+    };
+    (@rows $job:tt $(
+        #[$gate:meta]
+        $family:literal {$(
+            $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
+                exact $axes:tt $(/ $axes_precise:tt)?,
+                $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
+        )*}
+    )*) => {
+        $($($crate::for_each_codec! { @row $job $name $($flag)* })*)*
+    };
+    (@row [octant $callback:ident] $name:ident octant $($rest:ident)*) => { $callback!($name); };
+    (@row [stochastic $callback:ident] $name:ident stochastic $($rest:ident)*) => { $callback!($name); };
+    (@row $job:tt $name:ident $flag:ident $($rest:ident)*) => {
+        $crate::for_each_codec! { @row $job $name $($rest)* }
+    };
+    (@row $job:tt $name:ident) => {};
+}

@@ -7,6 +7,7 @@
 //! - [`Typed`]: the functions of slices that only a codec's type has, for one format of each family
 //!   and width of code.
 //! - [`codes`]: codes as integers, and the slices of [`Format`](unitpack::Format).
+//! - [`digests`]: the pinned digests.
 //! - [`tables`]: decode tables, likewise.
 //! - [`readme`]: the README's table of codecs.
 //! - [`random`], [`vectors`], [`Arrays`], [`frames`], [`published`] and [`tasks`]: what their names
@@ -18,6 +19,7 @@
 mod any_codec;
 mod arrays;
 pub mod codes;
+pub mod digests;
 pub mod every_code;
 pub mod frames;
 pub mod oracle;

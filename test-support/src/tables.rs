@@ -1,13 +1,13 @@
 //! Decode tables without the types of their codecs.
 
 use unitpack::decode_table::{DecodeTable, OctantTable, SignSymmetric};
-use unitpack::{Codec, Format, LengthMismatch, SoaMut};
+use unitpack::{Codec, Format, LengthMismatch, SoaMut, Visitor};
 
 use crate::codes::{native, natives};
-use crate::{Code, Outcome, Vector};
+use crate::{Code, Outcome, Vector, representatives};
 
 /// A table that is filled.
-pub trait Table: Send + Sync {
+pub trait Table {
     /// The vector of one code.
     fn decode(&self, code: Code) -> Vector;
     /// The functions of slices. Octants have them for one format of each family and width of code
@@ -16,7 +16,7 @@ pub trait Table: Send + Sync {
 }
 
 /// A table's functions of slices.
-pub trait Slices: Send + Sync {
+pub trait Slices {
     /// To a structure of arrays.
     fn decode_soa(&self, codes: &[Code], v: SoaMut<'_>) -> Outcome;
     /// To structures of three, four or eight floats.
@@ -41,7 +41,7 @@ pub type Filled<'a> = Result<Box<dyn Table + 'a>, LengthMismatch>;
 /// A table of an octant whose slices are left alone.
 struct Singles<'a, C: SignSymmetric>(OctantTable<'a, C>);
 
-impl<C: SignSymmetric + Send + Sync> Table for Singles<'_, C> {
+impl<C: SignSymmetric> Table for Singles<'_, C> {
     fn decode(&self, code: Code) -> Vector {
         self.0.decode(native(code))
     }
@@ -52,7 +52,7 @@ impl<C: SignSymmetric + Send + Sync> Table for Singles<'_, C> {
 
 macro_rules! with_slices {
     ($table:ident of $bound:ident) => {
-        impl<C: $bound + Send + Sync> Table for $table<'_, C> {
+        impl<C: $bound> Table for $table<'_, C> {
             fn decode(&self, code: Code) -> Vector {
                 self.decode(native(code))
             }
@@ -61,7 +61,7 @@ macro_rules! with_slices {
             }
         }
 
-        impl<C: $bound + Send + Sync> Slices for $table<'_, C> {
+        impl<C: $bound> Slices for $table<'_, C> {
             fn decode_soa(&self, codes: &[Code], v: SoaMut<'_>) -> Outcome {
                 self.decode_soa(&natives(codes), v)
             }
@@ -81,61 +81,57 @@ macro_rules! with_slices {
 with_slices!(DecodeTable of Codec);
 with_slices!(OctantTable of SignSymmetric);
 
-fn whole<C: Codec + Send + Sync>() -> AnyTable {
-    AnyTable { format: C::FORMAT, len: DecodeTable::<C>::LEN, fill: fill_whole::<C> }
+/// A table of every code, if the codec has one.
+struct Whole;
+
+impl Visitor for Whole {
+    type Output = Option<AnyTable>;
+    fn visit<C: Codec>(self) -> Option<AnyTable> {
+        // Of longer codes none is compiled.
+        let fill =
+            const { if C::FORMAT.bits() <= 16 { Some(fill_whole::<C> as Fill) } else { None } };
+        fill.map(|fill| AnyTable { format: C::FORMAT, len: 1 << C::FORMAT.bits(), fill })
+    }
 }
 
-fn octant<C: SignSymmetric + Send + Sync>() -> AnyTable {
-    AnyTable { format: C::FORMAT, len: OctantTable::<C>::LEN, fill: fill_octant::<C> }
+fn octant<C: SignSymmetric>() -> AnyTable {
+    let fill = const {
+        if representatives::contains(C::FORMAT) {
+            fill_octant::<C> as Fill
+        } else {
+            fill_octant_singles::<C>
+        }
+    };
+    AnyTable { format: C::FORMAT, len: OctantTable::<C>::LEN, fill }
 }
 
-fn octant_singles<C: SignSymmetric + Send + Sync>() -> AnyTable {
-    AnyTable { format: C::FORMAT, len: OctantTable::<C>::LEN, fill: fill_octant_singles::<C> }
-}
-
-fn fill_whole<C: Codec + Send + Sync>(vectors: &mut [Vector]) -> Filled<'_> {
+fn fill_whole<C: Codec>(vectors: &mut [Vector]) -> Filled<'_> {
     Ok(Box::new(DecodeTable::<C>::fill(vectors)?))
 }
 
-fn fill_octant<C: SignSymmetric + Send + Sync>(vectors: &mut [Vector]) -> Filled<'_> {
+fn fill_octant<C: SignSymmetric>(vectors: &mut [Vector]) -> Filled<'_> {
     Ok(Box::new(OctantTable::<C>::fill(vectors)?))
 }
 
-fn fill_octant_singles<C: SignSymmetric + Send + Sync>(vectors: &mut [Vector]) -> Filled<'_> {
+fn fill_octant_singles<C: SignSymmetric>(vectors: &mut [Vector]) -> Filled<'_> {
     Ok(Box::new(Singles(OctantTable::<C>::fill(vectors)?)))
 }
 
-macro_rules! list {
-    ($($kind:ident: $($name:ident)*;)*) => {
-        vec![$($($kind::<unitpack::$name>(),)*)*]
-    };
-}
-
-/// The tables of every code.
+/// The tables of every code, for all formats of at most 16 bits.
 #[inline]
 pub fn whole_tables() -> Vec<AnyTable> {
-    list! {
-        whole: Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 FrontOct16
-            QuadFrontOct16 OctUnorm8x2 Snorm5x3 Spherical16 PhiZUnorm8x2 HemiOct16 XyOnly16
-            Stereo16 StereoConcentric16 StereoEllipse16 EqArea16 EqAreaConcentric16 EqAreaEllipse16
-            EqDist16 EqDistConcentric16 EqDistEllipse16
-            LatLong16 LatLong16D Fibonacci16 Cube16 WarpedCube16
-            AngularCube4 AngularCube5 AngularCube6 AngularCube7 AngularCube8 AngularCube9
-            AngularCube10 AngularCube11 AngularCube12 AngularCube13 AngularCube14 AngularCube15
-            AngularCube16 Octant16 Icosphere162;
-    }
+    Format::ALL.iter().filter_map(|&format| format.visit(Whole)).collect()
 }
 
-/// The tables of one octant.
+/// The tables of one octant, for all formats that have one.
 #[inline]
 pub fn octant_tables() -> Vec<AnyTable> {
-    list! {
-        octant: Oct8 Oct10 WarpedOct16 EqAreaOct16 SixOct16 Snorm5x3 HemiOct16 XyOnly16
-            Stereo16 StereoConcentric16 StereoEllipse16 EqArea16 EqAreaConcentric16 EqAreaEllipse16
-            EqDist16 EqDistConcentric16 EqDistEllipse16 Cube16 WarpedCube16
-            AngularCube4 AngularCube9 Octant16;
-        octant_singles: Oct12 Oct14 Oct16 AngularCube5 AngularCube6 AngularCube7 AngularCube8
-            AngularCube10 AngularCube11 AngularCube12 AngularCube13 AngularCube14 AngularCube15
-            AngularCube16;
+    let mut tables = Vec::new();
+    macro_rules! push {
+        ($name:ident) => {
+            tables.push(octant::<unitpack::$name>())
+        };
     }
+    unitpack::for_each_codec!(octant: push);
+    tables
 }

@@ -78,7 +78,7 @@ impl Typed {
     /// Those of all [`representatives`].
     #[inline]
     pub fn all() -> impl Iterator<Item = &'static Typed> {
-        representatives::ALL.iter().filter_map(|&format| Typed::of(format))
+        representatives::all().filter_map(Typed::of)
     }
 }
 
@@ -171,67 +171,78 @@ fn write<T: bytemuck::Pod>(
 /// on these; what depends on the sizes of the parameters shows in the functions of one vector as
 /// well.
 pub mod representatives {
-    use unitpack::{Format, Visitor};
+    use unitpack::{Codec, Format, Visitor};
 
-    macro_rules! list {
-        ($($name:ident)*) => {
-            /// The list.
-            pub const ALL: &[Format] = &[$(Format::$name),*];
-
-            /// Calls a visitor with a codec's type, if it is one of the list. [`Format::visit`]
-            /// would compile the visitor for all codecs.
-            #[inline]
-            pub fn visit<V: Visitor>(format: Format, visitor: V) -> Option<V::Output> {
-                match format {
-                    $(Format::$name => Some(visitor.visit::<unitpack::$name>()),)*
-                    _ => None,
-                }
-            }
-        };
+    /// All of them, in the order of the table.
+    pub fn all() -> impl Iterator<Item = Format> {
+        Format::ALL.iter().copied().filter(|&format| contains(format))
     }
 
-    list! {
-        Oct8 Oct10 Oct18 Oct24 WarpedOct16 WarpedOct20 WarpedOct24 EqAreaOct16 EqAreaOct24
-        EqAreaOct32 SixOct16 SixOct24 SixOct32 FrontOct16 FrontOct24 FrontOct32
-        QuadFrontOct16 QuadFrontOct24 Snorm5x3 Snorm8x3 Snorm10x3 Snorm11_11_10 Snorm16x3
-        Float16x3 Float32x3 Spherical16 Spherical20 Spherical24 HemiOct16 HemiOct24 HemiOct32
-        SignedOct17 SignedOct23 XyOnly16 XyOnly24 XyOnly32 XyOnly32F
-        Stereo16 Stereo20 Stereo24 StereoConcentric16 StereoConcentric20 StereoConcentric24
-        StereoEllipse16 StereoEllipse20 StereoEllipse24 EqArea16 EqArea20 EqArea24
-        EqAreaConcentric16 EqAreaConcentric20 EqAreaConcentric24 EqAreaEllipse16 EqAreaEllipse20
-        EqAreaEllipse24 EqDist16 EqDist20 EqDist24 EqDistConcentric16 EqDistConcentric20
-        EqDistConcentric24 EqDistEllipse16 EqDistEllipse20 EqDistEllipse24
-        LatLong16 LatLong24 LatLong32 LatLong16D LatLong24D LatLong32D
-        Fibonacci16 Fibonacci24 Cube16 Cube24 Cube32 WarpedCube16 WarpedCube24 WarpedCube32
-        AngularCube4 AngularCube9 AngularCube17 AngularCube24 Octant16
-        XyzUnorm8x3 XyzUnorm16x3 CrytekBfn24 PhiZUnorm8x2 PhiZUnorm16x2
-        OctUnorm8x2 OctUnorm16x2 Icosphere162
-    }
-
-    /// The name of a family with what all of its formats share, such as "snormx" for snorm8x3, and
-    /// the bytes of a code.
-    fn kind(format: Format) -> (String, usize) {
-        let family = format.name().replace(|c: char| c.is_ascii_digit(), "");
-        (family, format.code_size())
+    /// Whether a format is one of them.
+    pub const fn contains(format: Format) -> bool {
+        beside(format) as usize == format as usize
     }
 
     /// That of a format's family and width.
-    ///
-    /// # Panics
-    /// If there is none.
-    pub fn beside(format: Format) -> Format {
-        let of_kind = |&&other: &&Format| kind(other) == kind(format);
-        *ALL.iter().find(of_kind).expect("the list has every family and width")
+    pub const fn beside(format: Format) -> Format {
+        let mut i = 0;
+        while !is_alike(Format::ALL[i], format) {
+            i += 1;
+        }
+        Format::ALL[i]
     }
 
-    /// What the list has to be.
-    pub fn expected() -> Vec<Format> {
-        let mut first: Vec<Format> = Vec::new();
-        for &format in Format::ALL {
-            if !first.iter().any(|&other| kind(other) == kind(format)) {
-                first.push(format);
+    /// Whether codes are of one size, and names the same except for their digits, as snorm8x3 and
+    /// snorm10x3.
+    const fn is_alike(a: Format, b: Format) -> bool {
+        let [name_a, name_b] = [a.name().as_bytes(), b.name().as_bytes()];
+        let (mut i, mut j) = (0, 0);
+        loop {
+            i = skip_digits(name_a, i);
+            j = skip_digits(name_b, j);
+            if i == name_a.len() || j == name_b.len() {
+                let both_end = i == name_a.len() && j == name_b.len();
+                return both_end && a.code_size() == b.code_size();
             }
+            if name_a[i] != name_b[j] {
+                return false;
+            }
+            i += 1;
+            j += 1;
         }
-        first
+    }
+
+    const fn skip_digits(name: &[u8], mut i: usize) -> usize {
+        while i < name.len() && name[i].is_ascii_digit() {
+            i += 1;
+        }
+        i
+    }
+
+    /// Calls a visitor with a codec's type, if it is one of them. Only for these is the visitor
+    /// compiled.
+    #[inline]
+    pub fn visit<V: Visitor>(format: Format, visitor: V) -> Option<V::Output> {
+        format.visit(IfContained(visitor))
+    }
+
+    struct IfContained<V>(V);
+
+    impl<V: Visitor> Visitor for IfContained<V> {
+        type Output = Option<V::Output>;
+        fn visit<C: Codec>(self) -> Option<V::Output> {
+            let visit = const {
+                if contains(C::FORMAT) {
+                    Some(visit_codec::<V, C> as fn(V) -> V::Output)
+                } else {
+                    None
+                }
+            };
+            visit.map(|visit| visit(self.0))
+        }
+    }
+
+    fn visit_codec<V: Visitor, C: Codec>(visitor: V) -> V::Output {
+        visitor.visit::<C>()
     }
 }

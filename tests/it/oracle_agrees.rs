@@ -98,8 +98,9 @@ fn nearest_count(format: Format) -> usize {
         "snorm16x3" | "xyz-unorm16x3" => 400,
         "float16x3" => 2_000,
         "snorm8x3" => 100_000,
-        _ if format.bits() <= 16 => 3_000,
-        _ => 20_000,
+        // Each with every code.
+        _ if format.bits() <= 16 => 1_000,
+        _ => 8_000,
     }
 }
 

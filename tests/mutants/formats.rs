@@ -1,8 +1,8 @@
 //! Kills mutants of what is chosen at run time. Slow to build, since every codec is in it.
 
-mod shared;
+mod support;
 
-use shared::{Random, vectors};
+use support::{Random, vectors};
 use unitpack::decode_table::FormatTable;
 use unitpack::*;
 

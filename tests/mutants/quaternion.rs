@@ -1,11 +1,12 @@
 //! Kills mutants of the quaternions.
 
-mod shared;
+mod support;
 
 use bytemuck::{Pod, Zeroable, bytes_of, bytes_of_mut};
-use shared::{ODD, Random, SIMPLE, digest};
+use support::{ODD, Random, SIMPLE};
 use unitpack::LengthMismatch;
 use unitpack::quaternion::*;
+use unitpack_test::digests::{Section, digest};
 
 /// Quaternions of every kind, in an order that brings different kinds into one block of lanes.
 fn quaternions<C: QuaternionCodec>() -> Vec<[f32; 4]> {
@@ -104,42 +105,19 @@ fn digests<C: QuaternionCodec>() -> [u64; 4] {
     ]
 }
 
-/// With PIN in the environment prints the digests of now.
-fn compare<C: QuaternionCodec>(pinned: [u64; 4]) {
-    let now = digests::<C>();
-    if std::env::var_os("PIN").is_some() {
-        println!("{} {now:#018X?}", C::NAME);
-    } else {
-        assert_eq!(now, pinned, "{}: decode, canonical, encode, encode_precise", C::NAME);
-    }
+fn add<C: QuaternionCodec>(section: &mut Section) {
+    digests::<C>().into_iter().for_each(|digest| section.add(C::NAME, digest));
 }
 
 #[test]
 fn digests_have_not_changed() {
-    compare::<SmallestThree32>([
-        0x0B24336F4F649BC0,
-        0x6538A559E8975307,
-        0xBFDBBD150568B86D,
-        0x19EDE7C4B5CA2229,
-    ]);
-    compare::<SmallestThree48>([
-        0x7BED5D3923E2DDAB,
-        0x6A769077EC2A848C,
-        0x10BE20051C90ABFA,
-        0x3103066BDDD8F1C8,
-    ]);
-    compare::<SmallestThree64>([
-        0xF55DDC0AA9E3E69B,
-        0xA7B418CEDC7CA02F,
-        0x7BB87B83458B982F,
-        0x0A2D1922025DEC59,
-    ]);
-    compare::<TanThree32>([
-        0x3819F422E42C569C,
-        0x3A3F6F2ECAF6A776,
-        0x4A862EE1490F097A,
-        0x1E7C25082B2DF2E1,
-    ]);
+    let columns = &["decode", "canonical", "encode", "encode_precise"];
+    let mut section = Section::open("mutants: quaternion", columns);
+    add::<SmallestThree32>(&mut section);
+    add::<SmallestThree48>(&mut section);
+    add::<SmallestThree64>(&mut section);
+    add::<TanThree32>(&mut section);
+    section.finish();
 }
 
 #[test]

@@ -35,12 +35,14 @@ fn cut(format: Format, patterns: &[Code]) -> Vec<Code> {
 
 #[test]
 fn one_format_of_each_family_and_width_is_checked_by_type() {
-    assert_eq!(representatives::ALL, representatives::expected());
-    for (typed, &format) in Typed::all().zip(representatives::ALL) {
-        assert_eq!(typed.format, format);
-        assert_eq!(representatives::beside(format), format);
-    }
-    assert_eq!(Typed::all().count(), representatives::ALL.len());
+    assert!(Typed::all().map(|typed| typed.format).eq(representatives::all()));
+    let of_width = |size| representatives::all().filter(move |f| f.code_size() == size);
+    assert!(Format::ALL.iter().all(|f| of_width(f.code_size()).next().is_some()));
+    let snorm = [Format::Snorm8x3, Format::Snorm10x3, Format::Snorm11_11_10];
+    assert_eq!(snorm.map(representatives::beside), snorm);
+    let alike = [Format::Oct32, Format::LatLong24D, Format::AngularCube16];
+    let first = [Format::Oct18, Format::LatLong24D, Format::AngularCube9];
+    assert_eq!(alike.map(representatives::beside), first);
 }
 
 /// Past one buffer of 256 vectors on the stack, or several of 64, too.
@@ -57,22 +59,23 @@ fn part(len: usize, offset: usize) -> Range<usize> {
     start..start + len
 }
 
-/// The precise search of these takes up to 200 us a vector, others 10 us at most.
-fn is_slow(format: Format, effort: Effort) -> bool {
-    use Format::*;
-    let wide = matches!(format, Snorm16x3 | XyzUnorm16x3 | Float16x3 | Snorm11_11_10 | Snorm10x3);
-    effort == Effort::Precise && wide
+/// At how many offsets of [`MARGIN`] one is taken: of the fast encoders and the decoders all, since
+/// they matter to the loops, which the formats of a family and width share. Others take another one
+/// at each length.
+fn every_offset(format: Format, effort: Effort) -> usize {
+    if representatives::contains(format) && effort == Effort::Fast { 1 } else { MARGIN }
 }
 
-/// Slow ones at one offset for each length.
 #[test]
 fn encoders_agree_at_every_length_and_offset() -> TestCaseResult {
     let pool = sample(vec(special(), POOL));
     for codec in AnyCodec::all() {
         for effort in Effort::BOTH {
             let alone = codec.encode_each(effort, &pool);
-            let every = if is_slow(codec.format, effort) { MARGIN } else { 1 };
-            for len in lengths() {
+            let every = every_offset(codec.format, effort);
+            // The finest grids take up to 200 us a vector.
+            let slow = effort == Effort::Precise && codec.format.bits() > 32;
+            for len in lengths().filter(|len| !slow || len % 5 == 1) {
                 for offset in (len % every..MARGIN).step_by(every) {
                     let part = part(len, offset);
                     encoders_give(codec, effort, &pool[part.clone()], offset, &alone[part])?;
@@ -89,8 +92,9 @@ fn decoders_agree_at_every_length_and_offset() -> TestCaseResult {
     for codec in AnyCodec::all() {
         let codes = cut(codec.format, &pool);
         let alone = codec.decode_each(&codes);
+        let every = every_offset(codec.format, Effort::Fast);
         for len in lengths() {
-            for offset in 0..MARGIN {
+            for offset in (len % every..MARGIN).step_by(every) {
                 let part = part(len, offset);
                 decoders_give(codec, &codes[part.clone()], offset, &alone[part.clone()])?;
                 if let Some(typed) = Typed::of(codec.format) {

@@ -1,6 +1,6 @@
 //! Prints a digest of what each codec, and each of the building blocks beside them, makes of the same inputs.
-//! Every computer, instruction set, virtual machine and microcontroller prints the same lines,
-//! those of `digests.txt`: one result everywhere. `run` compares them.
+//! Every computer, instruction set, virtual machine and microcontroller prints the same lines, those
+//! of [machines] in `tests/digests.txt`: one result everywhere. `run` compares them.
 //!
 //! Without `std`, so that the same program runs on bare metal and builds in seconds for any target.
 #![no_std]

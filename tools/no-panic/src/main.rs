@@ -93,6 +93,7 @@ fn format(format: Format) {
     black_box((Format::name(format), Format::bits(format), Format::code_size(format)));
     black_box((Format::is_hemisphere(format), Format::max_error_degrees(format)));
     black_box(Format::max_error_precise_degrees(format));
+    black_box((Format::exact_axes(format), Format::exact_axes_precise(format)));
     black_box(Format::cheapest(black_box(0.5)));
     black_box(Format::from_name(black_box("oct16")));
     match <Format as FromStr>::from_str(black_box("oct16")) {
@@ -254,7 +255,6 @@ fn table_of_codec<C: Codec>(vectors: &mut [[f32; 3]]) {
 }
 
 fn table_of_octant<C: SignSymmetric>(vectors: &mut [[f32; 3]]) {
-    table_of_codec::<C>(vectors);
     if let Some(vectors) = vectors.get_mut(..OctantTable::<C>::LEN)
         && let Ok(table) = OctantTable::<C>::fill(opaque(vectors))
     {
@@ -270,34 +270,35 @@ fn table_of_octant<C: SignSymmetric>(vectors: &mut [[f32; 3]]) {
     }
 }
 
-/// Calls a function for each codec in the list.
-macro_rules! codecs {
-    ($function:ident($vectors:ident): $($codec:ident)*) => {
-        $($function::<$codec>(opaque($vectors));)*
-    };
+/// Calls [`table_of_codec`], for codecs of at most 16 bits: others have no table.
+struct TableOfCodec<'a>(&'a mut [[f32; 3]]);
+
+impl Visitor for TableOfCodec<'_> {
+    type Output = ();
+
+    fn visit<C: Codec>(self) {
+        let table = const {
+            let has_one = C::FORMAT.bits() <= 16;
+            if has_one { Some(table_of_codec::<C> as fn(&mut [[f32; 3]])) } else { None }
+        };
+        if let Some(table) = table {
+            table(self.0);
+        }
+    }
 }
 
 fn decode_tables() {
     let vectors = &mut [[0.5; 3]; 1 << 16];
     for &format in black_box(Format::ALL) {
         table_of_format(format, opaque(vectors));
+        Format::visit(format, TableOfCodec(opaque(vectors)));
     }
-    // All that are sign-symmetric.
-    codecs!(table_of_octant(vectors):
-        Oct8 Oct10 Oct12 Oct14 Oct16 WarpedOct16 EqAreaOct16 SixOct16 Octant16 Snorm5x3 HemiOct16 XyOnly16
-        Stereo16 StereoConcentric16 StereoEllipse16
-        EqArea16 EqAreaConcentric16 EqAreaEllipse16
-        EqDist16 EqDistConcentric16 EqDistEllipse16
-        Cube16 WarpedCube16
-        AngularCube4 AngularCube5 AngularCube6 AngularCube7 AngularCube8 AngularCube9
-        AngularCube10 AngularCube11 AngularCube12 AngularCube13 AngularCube14 AngularCube15
-        AngularCube16
-    );
-    // The others of at most 16 bits.
-    codecs!(table_of_codec(vectors):
-        Spherical16 LatLong16 LatLong16D PhiZUnorm8x2 OctUnorm8x2 FrontOct16 QuadFrontOct16 Fibonacci16
-        Icosphere162
-    );
+    macro_rules! octant {
+        ($codec:ident) => {
+            table_of_octant::<$codec>(opaque(vectors))
+        };
+    }
+    for_each_codec!(octant: octant);
 }
 
 fn angles<const BITS: u32, T: CodeInt>() {
@@ -353,11 +354,12 @@ fn all_dithered() {
     dithered::<Snorm16x3>();
     dithered::<Float32x3>();
     dithered::<HemiOct16>();
-    macro_rules! each {
-        ($($codec:ident)*) => { $(stochastic::<$codec>();)* };
+    macro_rules! stochastic {
+        ($codec:ident) => {
+            stochastic::<$codec>()
+        };
     }
-    each!(Oct8 Oct10 Oct12 Oct14 Oct16 Oct18 Oct20 Oct22 Oct24 Oct26 Oct28 Oct30 Oct32);
-    each!(SixOct16 SixOct24 SixOct32);
+    for_each_codec!(stochastic: stochastic);
 }
 
 fn fibonacci() {

@@ -6,6 +6,7 @@
 use bytemuck::{Zeroable, bytes_of, bytes_of_mut, cast_slice, cast_slice_mut, pod_read_unaligned};
 use unitpack::decode_table::{OctantTable, SignSymmetric};
 use unitpack::{Axis, Codec, Soa, SoaMut};
+use unitpack_test::digests::{Section, digest};
 
 type Vector = [f32; 3];
 
@@ -131,14 +132,15 @@ impl Functions {
         codes.to_vec()
     }
 
-    /// Of `decode`, `canonical`, `encode`, `encode_precise`, and negated and mirrored codes. What is slow,
-    /// `encode_precise` above all, takes one of so many. Each is shown to `check` at once, since most mutants fail at the first.
-    fn digests(&self, every: usize, mut check: impl FnMut(usize, u64)) {
+    /// Gives `check` the digests of the [`OPERATIONS`], in their order. What is slow, `encode_precise`
+    /// above all, takes one of so many inputs. `check` gets each at once, since most mutants fail at
+    /// the first.
+    fn digests(&self, every: usize, mut check: impl FnMut(u64)) {
         let decoded = self.decode(&codes());
-        check(0, digest(decoded.iter().flatten().flat_map(|c| c.to_bits().to_le_bytes())));
+        check(digest(decoded.iter().flatten().flat_map(|c| c.to_bits().to_le_bytes())));
         let codes: Vec<u8> = codes().chunks(12 * every).flat_map(|c| c[..12].to_vec()).collect();
-        check(1, digest(self.canonical(&codes)));
-        check(4, digest([1, 2, 3, 4].into_iter().flat_map(|i| self.in_place(i, &codes))));
+        check(digest(self.canonical(&codes)));
+        check(digest([1, 2, 3, 4].into_iter().flat_map(|i| self.in_place(i, &codes))));
         // Beside the fixed vectors, points of the format, and what lies between two of them.
         let mut vectors = vectors();
         let points = decoded.iter().filter(|v| v.iter().all(|c| c.is_finite()));
@@ -147,9 +149,9 @@ impl Functions {
             vectors.push(pair[0]);
             vectors.push([0, 1, 2].map(|i| pair[0][i] + pair[1][i]));
         }
-        check(2, digest(self.encode(0, &vectors)));
+        check(digest(self.encode(0, &vectors)));
         let few: Vec<Vector> = vectors.iter().copied().step_by(every).collect();
-        check(3, digest(self.encode(1, &few)));
+        check(digest(self.encode(1, &few)));
     }
 }
 
@@ -160,13 +162,6 @@ fn aligned(bytes: usize) -> Vec<u32> {
 
 fn columns(vectors: &[Vector]) -> [Vec<f32>; 3] {
     [0, 1, 2].map(|i| vectors.iter().map(|v| v[i]).collect())
-}
-
-/// FNV-1a, 64 bits.
-pub fn digest(bytes: impl IntoIterator<Item = u8>) -> u64 {
-    bytes.into_iter().fold(0xCBF2_9CE4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01B3)
-    })
 }
 
 /// A linear congruential generator.
@@ -285,48 +280,40 @@ fn codes() -> Vec<u8> {
     codes
 }
 
-/// What is digested, in this order.
-const OPERATIONS: [&str; 5] = ["decode", "canonical", "encode", "encode_precise", "mirror"];
+/// What is digested of a codec: the columns of its section.
+const OPERATIONS: [&str; 5] = ["decode", "canonical", "mirror", "encode", "encode_precise"];
 
-/// Compares with the pinned digests. With PIN in the environment prints those of now, ready to
-/// paste.
-pub fn compare(pinned: &[(&str, Functions, usize, [u64; 5])]) {
-    let pin = std::env::var_os("PIN").is_some();
-    for &(name, functions, every, pinned) in pinned {
-        let mut now = [0; 5];
-        functions.digests(every, |i, digest| {
-            assert!(pin || digest == pinned[i], "{name}: {}", OPERATIONS[i]);
-            now[i] = digest;
-        });
-        if pin {
-            let digests = now.map(|digest| format!("{digest:#018X}")).join(", ");
-            println!("    {name} / {every} = [{digests}],");
-        }
+/// Compares with the pinned digests.
+pub fn compare(title: &'static str, codecs: &[(&str, Functions, usize)]) {
+    let mut section = Section::open(title, &OPERATIONS);
+    for &(name, functions, every) in codecs {
+        functions.digests(every, |digest| section.expect(name, digest));
     }
+    section.finish();
 }
 
-/// A test of the digests of some codecs. The precise encoder takes one vector of so many.
+/// A test of the digests of some codecs, which are a section of their own. The precise encoder takes
+/// one vector of so many.
 #[macro_export]
 macro_rules! digests {
-    ($($codec:ident / $every:literal = $digests:expr,)*) => {
+    ($title:literal: $($codec:ident $(/ $every:literal)?,)*) => {
         #[test]
         fn digests_have_not_changed() {
-            shared::compare(&[$((
-                stringify!($codec),
-                shared::Functions::of::<unitpack::$codec>(),
-                $every,
-                $digests,
+            support::compare($title, &[$((
+                <unitpack::$codec as unitpack::Codec>::FORMAT.name(),
+                support::Functions::of::<unitpack::$codec>(),
+                1 $(* $every)?,
             ),)*]);
         }
     };
 }
 
-/// Every code, read through a table of an octant, is what the decoder gives, and the table ends at
-/// the last entry that a code has.
+/// Every code, read through a table of an octant, is what the decoder gives, and every entry is of a
+/// code.
 pub fn octant_table_is_exact<C: SignSymmetric>() {
-    let places = (0..1 << C::FORMAT.bits()).filter_map(|index| C::place(code::<C>(index)));
-    assert_eq!(places.max(), Some(C::ENTRIES - 1));
-    let mut vectors = vec![[0.0; 3]; C::ENTRIES];
+    let mut vectors = vec![[f32::NAN; 3]; C::ENTRIES];
+    OctantTable::<C>::fill(&mut vectors).unwrap();
+    assert!(vectors.iter().flatten().all(|c| c.is_finite()), "an entry is spare");
     let table = OctantTable::<C>::fill(&mut vectors).unwrap();
     let codes: Vec<C::Code> = (0..1 << C::FORMAT.bits()).step_by(7).map(code::<C>).collect();
     let [mut x, mut y, mut z] = [0; 3].map(|_| vec![0.0f32; codes.len()]);
@@ -346,17 +333,13 @@ pub fn code<C: Codec>(index: u32) -> C::Code {
     code
 }
 
-/// Compares the decoded vectors of some codes with a digest. With PIN in the environment prints that
-/// of now.
-pub fn compare_decoded<C: Codec>(name: &str, codes: &[u32], pinned: u64) {
+/// Compares the digest of the decoded vectors of some codes, which is a section of its own.
+pub fn compare_decoded<C: Codec>(title: &'static str, codes: &[u32]) {
     let codes: Vec<C::Code> = codes.iter().map(|&index| code::<C>(index)).collect();
     let [mut x, mut y, mut z] = [0; 3].map(|_| vec![0.0f32; codes.len()]);
     C::decode_soa(&codes, SoaMut { x: &mut x, y: &mut y, z: &mut z }).unwrap();
     let bits = x.iter().chain(&y).chain(&z).flat_map(|c| c.to_bits().to_le_bytes());
-    let now = digest(bits);
-    if std::env::var_os("PIN").is_some() {
-        println!("        ({name:?}, {now:#018X}),");
-    } else {
-        assert_eq!(now, pinned, "{name}");
-    }
+    let mut section = Section::open(title, &["decode"]);
+    section.add(C::FORMAT.name(), digest(bits));
+    section.finish();
 }
