@@ -72,7 +72,7 @@ impl Dither {
     }
 
     /// [`Codec::encode`] of a vector that is element `index`. Any input is allowed, as there; with
-    /// [`Float32x3`] too, what is no direction is taken as +Z.
+    /// [`Float32x3`](crate::Float32x3) too, what is no direction is taken as +Z.
     #[inline]
     pub fn encode<C: Codec>(self, index: u32, v: [f32; 3]) -> C::Code {
         C::encode(Rotation::of(C::FORMAT).turn_one(v, self.index(index)))

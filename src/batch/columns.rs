@@ -2,7 +2,9 @@
 
 use core::marker::PhantomData;
 
-use super::storage::{CodeKind, CodeSlice, CodeSliceMut, MAX_CODE, ShapeIn, copy};
+use super::storage::{
+    CodeKind, CodeSlice, CodeSliceMut, MAX_CODE, ShapeIn, blocks, blocks_mut, copy,
+};
 use crate::simd::{MAX_LANES, Simd};
 
 /// A kind of slices to read, all equally long.
@@ -63,24 +65,6 @@ pub(crate) trait Output: 'static {
         value: Self::In<V>,
         streams: bool,
     );
-}
-
-/// A slice as `count` blocks.
-#[inline(always)]
-pub(super) fn blocks<V: Simd, T: Copy + 'static>(
-    slice: &[T],
-    count: usize,
-) -> Option<&[V::Block<T>]> {
-    V::split(slice).0.get(..count)
-}
-
-/// A slice as `count` blocks.
-#[inline(always)]
-pub(super) fn blocks_mut<V: Simd, T: Copy + 'static>(
-    slice: &mut [T],
-    count: usize,
-) -> Option<&mut [V::Block<T>]> {
-    V::split_mut(slice).0.get_mut(..count)
 }
 
 /// `K` components of vectors, a slice each.

@@ -8,9 +8,9 @@ pub(crate) mod columns;
 pub(crate) mod layout;
 pub(crate) mod storage;
 
-use crate::simd::Simd;
-use crate::simd::dispatch::{BatchLoop, dispatch};
+use crate::simd::dispatch::dispatch;
 use crate::simd::stream::Fence;
+use crate::simd::{BatchLoop, Simd};
 use columns::{Input, Output};
 
 /// What a loop does with one block.
@@ -89,10 +89,11 @@ fn run_padded<I: Input, O: Output>(
     kernel: BlocksKernel<'_, I, O>,
 ) {
     let len = I::len(input);
-    let rest_len = len % lanes;
+    // A power of two, of which division would leave a check for zero.
+    let rest_len = len & (lanes - 1);
     let Some((blocks, rest)) = I::split(input, len - rest_len) else { return };
     let Some((output_blocks, output_rest)) = O::split(output, len - rest_len) else { return };
-    kernel(blocks, output_blocks, len / lanes);
+    kernel(blocks, output_blocks, len >> lanes.trailing_zeros());
     if rest_len > 0 {
         let block = I::pad(rest);
         let mut output_block = O::pad(&output_rest);

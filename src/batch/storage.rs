@@ -2,7 +2,6 @@
 
 use bytemuck::Pod;
 
-use super::columns::{blocks, blocks_mut};
 use crate::simd::Simd;
 
 /// Number of 32-bit words that hold a code in lanes.
@@ -319,6 +318,24 @@ pub(crate) fn swap_if_big_endian(bytes: &mut [u8], element: usize) {
             integer.reverse();
         }
     }
+}
+
+/// A slice as `count` blocks.
+#[inline(always)]
+pub(super) fn blocks<V: Simd, T: Copy + 'static>(
+    slice: &[T],
+    count: usize,
+) -> Option<&[V::Block<T>]> {
+    V::split(slice).0.get(..count)
+}
+
+/// A slice as `count` blocks.
+#[inline(always)]
+pub(super) fn blocks_mut<V: Simd, T: Copy + 'static>(
+    slice: &mut [T],
+    count: usize,
+) -> Option<&mut [V::Block<T>]> {
+    V::split_mut(slice).0.get_mut(..count)
 }
 
 /// Copies as many elements as both have.

@@ -1,17 +1,7 @@
 //! Runs a batch loop on the widest SIMD that the processor has.
 
-use super::Simd;
+use super::BatchLoop;
 use super::wide::F32x8;
-
-/// A loop over many elements.
-pub(crate) trait BatchLoop: Sized {
-    /// Whether `wide`'s eight lanes have a form of its own. Without one, one lane runs.
-    const USE_WIDE: bool = true;
-    /// Whether AVX-512 has a form of its own. Without one, AVX2's runs.
-    const USE_AVX512: bool = true;
-
-    fn run<V: Simd>(self);
-}
 
 /// Whether the processor is asked what it has. `wide`'s lanes are then for those without AVX2, which
 /// few have.

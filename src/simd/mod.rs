@@ -27,6 +27,16 @@ pub(crate) const MAX_SHUFFLED: usize = 4;
 /// Largest number of lanes.
 pub(crate) const MAX_LANES: usize = 16;
 
+/// A loop over many elements.
+pub(crate) trait BatchLoop: Sized {
+    /// Whether `wide`'s eight lanes have a form of its own. Without one, one lane runs.
+    const USE_WIDE: bool = true;
+    /// Whether AVX-512 has a form of its own. Without one, AVX2's runs.
+    const USE_AVX512: bool = true;
+
+    fn run<V: Simd>(self);
+}
+
 /// A SIMD vector of `f32`.
 ///
 /// A number on the right of an operator, or as an argument, means a vector of that number.

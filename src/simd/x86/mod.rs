@@ -12,7 +12,7 @@ mod shuffle;
 
 use fearless_simd::{Avx2, Avx512, Level};
 
-use super::dispatch::BatchLoop;
+use super::BatchLoop;
 use lanes::{F32x8, F32x16};
 
 /// Instructions that the processor was found to have. Nothing but the lanes calls
