@@ -58,6 +58,7 @@ pub(crate) struct Steps {
 
 impl Steps {
     /// Snorm with a number of bits for x, y and z. None has more than x.
+    #[inline]
     pub(super) const fn snorm(bits: [u32; 3]) -> Self {
         let steps =
             [snorm_max(bits[0]) as f32, snorm_max(bits[1]) as f32, snorm_max(bits[2]) as f32];
@@ -366,6 +367,7 @@ pub(crate) struct Uneven {
 }
 
 impl Uneven {
+    #[inline]
     const fn new(bits: [u32; 3]) -> Self {
         let (most, least) = (snorm_max(bits[0]) as i64, snorm_max(bits[2]) as i64);
         let (most, least) = (most * most, least * least);

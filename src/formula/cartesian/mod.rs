@@ -47,6 +47,7 @@ pub(crate) type Xyz16 = Cartesian<Fine>;
 
 impl Xyz {
     /// Snorm with a number of bits for x, y and z. None has more than x.
+    #[inline]
     pub(crate) const fn snorm(bits: [u32; 3]) -> Self {
         Cartesian(Steps::snorm(bits))
     }
@@ -63,6 +64,7 @@ impl Xyz {
 }
 
 impl Xyz16 {
+    #[inline]
     pub(crate) const fn snorm() -> Self {
         Cartesian(Fine::Steps(Steps::snorm([16; 3])))
     }
