@@ -60,8 +60,7 @@ use crate::formula::{
     oct::{Central, EqualArea, Oct, Warped},
     octant::Octant,
 };
-use crate::simd::dispatch::DETECTS;
-use crate::simd::{I32x1, Simd, Vec3, look_up3};
+use crate::simd::{I32x1, Simd, Use, Vec3, look_up3};
 use crate::vector::SoaMut;
 
 /// Every decoded vector of the codec `C`, which has at most 16 bits.
@@ -280,8 +279,7 @@ impl<F: Symmetric> Mirrored<'_, F> {
 
 impl<F: Symmetric> Kernel<CodeColumn<Words>, Columns<3>> for Mirrored<'_, F> {
     // Most of the time goes into loads of single elements.
-    const USE_AVX512: bool = false;
-    const USE_WIDE: bool = !DETECTS;
+    const USE: Use = Use::Rare;
 
     #[inline(always)]
     fn run<V: Simd>(self, code: V::Int) -> [V; 3] {

@@ -54,7 +54,7 @@ use crate::formula::Lattice;
 #[cfg(feature = "octahedral")]
 use crate::formula::oct::{Central, Oct};
 use crate::formula::support::sanitize::sanitize;
-use crate::simd::{I32x1, Simd, SimdInt, Vec3, map3};
+use crate::simd::{I32x1, Simd, SimdInt, Use, Vec3, map3};
 use crate::vector::{Soa, SoaMut};
 
 /// A sequence of small rotations and of random numbers, one of each for every element. See the
@@ -297,6 +297,8 @@ type Numbered = (Columns<3>, Indices);
 struct Turn(Rotation);
 
 impl Kernel<Numbered, Columns<3>> for Turn {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, (v, number): ([V; 3], V::Int)) -> [V; 3] {
         self.0.turn(Vec3::from(v), number).to_array()
@@ -334,6 +336,8 @@ fn encode_stochastic<F: Lattice, V: Simd>(formula: F, v: Vec3<V>, number: V::Int
 struct Stochastic<F>(F);
 
 impl<F: Lattice> Kernel<Numbered, CodeColumn<Words>> for Stochastic<F> {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, (v, number): ([V; 3], V::Int)) -> V::Int {
         encode_stochastic(self.0, Vec3::from(v), number)

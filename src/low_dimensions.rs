@@ -11,7 +11,7 @@ use crate::batch::{Kernel, map, run};
 use crate::error::LengthMismatch;
 use crate::formula::circle::Circle;
 use crate::formula::support::sanitize::sanitize;
-use crate::simd::{I32x1, Simd, Vec3};
+use crate::simd::{I32x1, Simd, Use, Vec3};
 
 /// 1D: a sign, in one bit. 0 is +1, and 1 is -1.
 ///
@@ -157,6 +157,8 @@ impl Encode {
 }
 
 impl Kernel<Columns<2>, CodeColumn<Words>> for Encode {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, v: [V; 2]) -> V::Int {
         self.nearest(v)
@@ -164,6 +166,8 @@ impl Kernel<Columns<2>, CodeColumn<Words>> for Encode {
 }
 
 impl Kernel<CodeColumn<Words>, Columns<2>> for Decode {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, code: V::Int) -> [V; 2] {
         self.0.direction::<V>(code)

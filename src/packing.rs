@@ -30,7 +30,7 @@ use crate::batch::{Kernel, map};
 use crate::error::LengthMismatch;
 use crate::formula::support::bits::Pair;
 use crate::scalar::{Grid, SnormGrid};
-use crate::simd::{Simd, map2};
+use crate::simd::{Simd, Use, map2};
 
 /// Two snorm numbers of 12 bits as an RGB8 texel, as [`Oct24`](crate::Oct24) packs its parameters:
 /// with u and v from -2047 to 2047 plus 2047, `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
@@ -113,6 +113,8 @@ impl UnpackSnorm12x2 {
 }
 
 impl Kernel<Rows<2, 2>, CodeColumn<[u8; 3]>> for PackSnorm12x2 {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, pair: [V; 2]) -> V::Int {
         self.pack(pair)
@@ -120,6 +122,8 @@ impl Kernel<Rows<2, 2>, CodeColumn<[u8; 3]>> for PackSnorm12x2 {
 }
 
 impl Kernel<CodeColumn<[u8; 3]>, Rows<2, 2>> for UnpackSnorm12x2 {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, code: V::Int) -> [V; 2] {
         self.unpack::<V>(code)

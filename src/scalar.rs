@@ -39,7 +39,7 @@ use crate::batch::storage::Words;
 use crate::batch::{Kernel, map, run};
 use crate::error::LengthMismatch;
 use crate::formula::support::bits::{snorm_max, unorm_max};
-use crate::simd::{I32x1, Simd, SimdInt};
+use crate::simd::{I32x1, Simd, SimdInt, Use};
 
 /// A grid of numbers, and the codes of its points.
 pub trait Scalar: Copy + 'static {
@@ -96,6 +96,8 @@ struct Encode<G>(G, u32);
 struct Decode<G>(G);
 
 impl<G: Grid> Kernel<Columns<1>, CodeColumn<Words>> for Encode<G> {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, [x]: [V; 1]) -> V::Int {
         self.0.nearest(x).low_bits(self.1)
@@ -103,6 +105,8 @@ impl<G: Grid> Kernel<Columns<1>, CodeColumn<Words>> for Encode<G> {
 }
 
 impl<G: Grid> Kernel<CodeColumn<Words>, Columns<1>> for Decode<G> {
+    const USE: Use = Use::Sometimes;
+
     #[inline(always)]
     fn run<V: Simd>(self, code: V::Int) -> [V; 1] {
         [self.0.value::<V>(code)]

@@ -6,8 +6,8 @@ use bytemuck::Pod;
 use super::columns::{Columns, Input, Output, RowSlice, RowSliceMut, Rows, Strided, empty};
 use super::storage::{CodeSlice, CodeSliceMut, MAX_CODE, copy, swap_if_big_endian};
 use super::{Kernel, map};
-use crate::simd::Simd;
 use crate::simd::stream::{self, Fence};
+use crate::simd::{Simd, Use};
 
 /// Elements that are converted at a time: more where each part costs a check of the processor.
 pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { FEW };
@@ -425,7 +425,7 @@ macro_rules! transpose {
     ($([$($generics:tt)*] $from:ty => $to:ty;)*) => { $(
         impl<$($generics)*> Kernel<$from, $to> for Transpose {
             // It has no shuffles; the compiler does better with a scalar loop.
-            const USE_WIDE: bool = false;
+            const USE: Use = Use::Moves;
 
             #[inline(always)]
             fn run<V: Simd>(self, vectors: [V; K]) -> [V; K] {

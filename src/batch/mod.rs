@@ -10,15 +10,12 @@ pub(crate) mod storage;
 
 use crate::simd::dispatch::dispatch;
 use crate::simd::stream::Fence;
-use crate::simd::{BatchLoop, Simd};
+use crate::simd::{BatchLoop, Simd, Use};
 use columns::{Input, Output};
 
 /// What a loop does with one block.
 pub(crate) trait Kernel<I: Input, O: Output>: Copy {
-    /// See [`BatchLoop::USE_WIDE`].
-    const USE_WIDE: bool = true;
-    /// See [`BatchLoop::USE_AVX512`].
-    const USE_AVX512: bool = true;
+    const USE: Use = Use::Often;
 
     fn run<V: Simd>(self, input: I::In<V>) -> O::In<V>;
 }
@@ -52,8 +49,7 @@ struct Loop<'i, 'o, K, I: Input, O: Output> {
 }
 
 impl<K: Kernel<I, O>, I: Input, O: Output> BatchLoop for Loop<'_, '_, K, I, O> {
-    const USE_WIDE: bool = K::USE_WIDE;
-    const USE_AVX512: bool = K::USE_AVX512;
+    const USE: Use = K::USE;
 
     #[inline(always)]
     fn run<V: Simd>(self) {

@@ -19,9 +19,9 @@
 use super::support::bits::Pair;
 use super::support::closest::{Closest, corners, join, split};
 use super::support::sign::{negate_if, not_if};
-use super::{Formula, Symmetric, Use, kernels};
+use super::{Formula, Symmetric, kernels};
 use crate::batch::storage::{Word, Words};
-use crate::simd::{Simd, SimdInt, Vec3, map2};
+use crate::simd::{Simd, SimdInt, Use, Vec3, map2};
 
 /// Hemi-oct.
 #[derive(Clone, Copy)]

@@ -33,8 +33,7 @@ use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{CodeKind, CodeShape, ShapeIn, Word};
 use crate::batch::{Kernel, map, run};
-use crate::simd::dispatch::DETECTS;
-use crate::simd::{Simd, Vec3};
+use crate::simd::{Simd, Use, Vec3};
 use support::sanitize::sanitize;
 use support::sign::mirror_vector;
 
@@ -47,7 +46,7 @@ pub(crate) trait Formula: Copy + Send + Sync + 'static {
     type Shape: CodeShape;
     /// Whether only z >= 0 is represented. z < 0 is then taken as 0.
     const HEMISPHERE: bool = false;
-    /// How often `encode_precise` is called for many vectors, that is, how much to compile for it.
+    /// How much `encode_precise` of many vectors is used.
     const PRECISE_USE: Use = Use::Sometimes;
     /// Whether `encode` is `encode_precise`.
     const ONE_ENCODER: bool = false;
@@ -84,16 +83,6 @@ pub(crate) trait Formula: Copy + Send + Sync + 'static {
         let mirrored = mirror_vector(self.decode::<V>(code), flips);
         self.encode_precise(self.prepare(mirrored))
     }
-}
-
-/// How much a kernel is used.
-pub(crate) enum Use {
-    /// So it is compiled for all lanes.
-    Often,
-    /// So it has no form for processors that were found to have no AVX2.
-    Sometimes,
-    /// So it has no form for AVX-512 either.
-    Rare,
 }
 
 /// A code of the formula `F` in lanes.
@@ -142,8 +131,7 @@ impl<S: Source, K, const PRECISE: bool> Kernel<Columns<3>, CodeColumn<K>> for En
 where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
-    const USE_AVX512: bool = !PRECISE || !matches!(S::Formula::PRECISE_USE, Use::Rare);
-    const USE_WIDE: bool = !PRECISE || !DETECTS || matches!(S::Formula::PRECISE_USE, Use::Often);
+    const USE: Use = if PRECISE { S::Formula::PRECISE_USE } else { Use::Often };
 
     #[inline(always)]
     fn run<V: Simd>(self, v: [V; 3]) -> Code<S::Formula, V> {
@@ -168,8 +156,7 @@ where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
     // The least used of the kernels would be half of what all of them cost to compile.
-    const USE_AVX512: bool = false;
-    const USE_WIDE: bool = !DETECTS;
+    const USE: Use = Use::Rare;
 
     #[inline(always)]
     fn run<V: Simd>(self, code: Code<S::Formula, V>) -> Code<S::Formula, V> {

@@ -15,10 +15,10 @@
 use super::support::bits::Pair;
 use super::support::closest::{Closest, corners, join, split};
 use super::support::sign::negate_if;
-use super::{Formula, Use, kernels};
+use super::{Formula, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sin_cos_quarter_turns, sqrt};
-use crate::simd::{Simd, SimdInt, Vec3, map2};
+use crate::simd::{Simd, SimdInt, Use, Vec3, map2};
 
 /// Spherical.
 #[derive(Clone, Copy)]

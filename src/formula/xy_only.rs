@@ -22,10 +22,10 @@ use super::support::bits::Pair;
 use super::support::closest::Closest;
 use super::support::half;
 use super::support::sign::negate_if;
-use super::{Formula, Symmetric, Use, kernels};
+use super::{Formula, Symmetric, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::math::{inv_sqrt, sqrt};
-use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
+use crate::simd::{Simd, SimdInt, SimdMask, Use, Vec3, map2};
 
 /// XY-only on a grid.
 #[derive(Clone, Copy)]

@@ -4,8 +4,7 @@ use crate::batch::columns::{CodeColumn, Columns, Input, Output};
 use crate::batch::layout::{Codes, CodesMut, FEW, MANY, PART, Vectors, VectorsMut};
 use crate::batch::storage::{CodeIn, CodeSlice, CodeSliceMut};
 use crate::batch::{Kernel, map};
-use crate::simd::dispatch::DETECTS;
-use crate::simd::{Simd, Vec3};
+use crate::simd::{Simd, Use, Vec3};
 
 use super::Skew;
 use super::formula::{FrameBytes, FrameFormula, Prepared, skew_degrees};
@@ -41,7 +40,7 @@ type FrameSlicesMut<'a> = <Frames as Output>::Slices<'a>;
 impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
     Kernel<Frames, (CodeColumn<B>, Columns<1>)> for Encode<F, PRECISE>
 {
-    const USE_WIDE: bool = !PRECISE || !DETECTS;
+    const USE: Use = if PRECISE { Use::Sometimes } else { Use::Often };
 
     #[inline(always)]
     fn run<V: Simd>(

@@ -5,8 +5,7 @@ use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{CodeBytes, CodeKind, CodeShape, ShapeIn};
 use crate::batch::{Kernel, map, run};
 use crate::formula::support::sanitize::sanitize4;
-use crate::simd::Simd;
-use crate::simd::dispatch::DETECTS;
+use crate::simd::{Simd, Use};
 
 /// A representation of rotations, on any number of lanes. See
 /// [`Formula`](crate::formula::Formula).
@@ -47,7 +46,7 @@ struct Decode<R>(R);
 impl<R: Rotation, K: CodeKind<Shape = R::Shape>, const PRECISE: bool>
     Kernel<Columns<4>, CodeColumn<K>> for Encode<R, PRECISE>
 {
-    const USE_WIDE: bool = !PRECISE || !DETECTS;
+    const USE: Use = if PRECISE { Use::Sometimes } else { Use::Often };
 
     #[inline(always)]
     fn run<V: Simd>(self, q: [V; 4]) -> Code<R, V> {

@@ -1,12 +1,10 @@
 //! Runs a batch loop on the widest SIMD that the processor has.
 
-use super::BatchLoop;
 use super::wide::F32x8;
+use super::{BatchLoop, Use};
 
-/// Whether the processor is asked what it has. `wide`'s lanes are then for those without AVX2, which
-/// few have.
-pub(crate) const DETECTS: bool =
-    cfg!(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")));
+/// Whether the processor is asked what it has. Then `wide`'s lanes are for those without AVX2.
+const DETECTS: bool = cfg!(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")));
 
 /// Whether `wide`'s eight lanes compile to SIMD here. Where they do not, one lane is faster and
 /// smaller, and gives the same bits.
@@ -20,7 +18,12 @@ const HAS_SIMD: bool = cfg!(any(
 pub(crate) fn dispatch<L: BatchLoop>(batch: L) {
     #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
     let Some(batch) = super::x86::dispatch(batch) else { return };
-    if HAS_SIMD && L::USE_WIDE {
+    let has_wide_form = match L::USE {
+        Use::Often => true,
+        Use::Sometimes | Use::Rare => !DETECTS,
+        Use::Moves => false,
+    };
+    if HAS_SIMD && has_wide_form {
         batch.run::<F32x8>();
     } else {
         batch.run::<f32>();

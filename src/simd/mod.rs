@@ -27,12 +27,22 @@ pub(crate) const MAX_SHUFFLED: usize = 4;
 /// Largest number of lanes.
 pub(crate) const MAX_LANES: usize = 16;
 
+/// How much a loop is used, which says for which lanes it is compiled.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Use {
+    /// All lanes.
+    Often,
+    /// No form for processors that were found to have no AVX2: one lane serves those few.
+    Sometimes,
+    /// No form for AVX-512 either.
+    Rare,
+    /// Moves elements. `wide` cannot do that better than one lane.
+    Moves,
+}
+
 /// A loop over many elements.
 pub(crate) trait BatchLoop: Sized {
-    /// Whether `wide`'s eight lanes have a form of its own. Without one, one lane runs.
-    const USE_WIDE: bool = true;
-    /// Whether AVX-512 has a form of its own. Without one, AVX2's runs.
-    const USE_AVX512: bool = true;
+    const USE: Use;
 
     fn run<V: Simd>(self);
 }

@@ -30,9 +30,9 @@ pub(crate) use best_fit::BestFit;
 pub(crate) use floats::Floats;
 
 use super::support::sign::mirror_point;
-use super::{Code, Formula, Symmetric, Use, kernels};
+use super::{Code, Formula, Symmetric, kernels};
 use crate::batch::storage::Words;
-use crate::simd::{Simd, SimdInt, Vec3};
+use crate::simd::{Simd, SimdInt, Use, Vec3};
 use grid::{Fine, Grid, Steps};
 use search::Search;
 

@@ -41,9 +41,9 @@ pub(crate) use stretch::Stretch;
 
 use super::support::bits::Pair;
 use super::support::sign::{negate_if, not_if};
-use super::{Formula, Symmetric, Use, kernels};
+use super::{Formula, Symmetric, kernels};
 use crate::batch::storage::{Word, Words};
-use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map2};
+use crate::simd::{Simd, SimdInt, SimdMask, Use, Vec3, map2};
 use projection::DiskPoint;
 use stretch::Scale;
 

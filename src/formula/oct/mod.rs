@@ -47,10 +47,10 @@ use core::marker::PhantomData;
 
 use super::support::bits::Pair;
 use super::support::sign::negate_if;
-use super::{Formula, Lattice, Symmetric, Use, kernels};
+use super::{Formula, Lattice, Symmetric, kernels};
 use crate::batch::storage::{Word, Words};
 use crate::simd::math::sqrt;
-use crate::simd::{Simd, SimdInt, Vec3, map2, map3};
+use crate::simd::{Simd, SimdInt, Use, Vec3, map2, map3};
 use lattice::{across_equator, plus_on_border, unfold};
 
 /// Octahedral with the map `P`.
@@ -118,7 +118,7 @@ impl<P: Projection> Oct<P> {
 
 impl<P: Projection> Formula for Oct<P> {
     type Shape = Word;
-    const PRECISE_USE: Use = Use::Often;
+    const PRECISE_USE: Use = P::PRECISE_USE;
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> V::Int {

@@ -3,10 +3,13 @@
 use super::lattice::{Steps, nearest_on_octahedron, triangle_around};
 use crate::formula::support::closest::Closest;
 use crate::simd::math::{atan2_half_turns, sin_cos_of_one, sqrt};
-use crate::simd::{Simd, SimdInt, Vec3, map_vec, map3};
+use crate::simd::{Simd, SimdInt, Use, Vec3, map_vec, map3};
 
 /// How an octant of the sphere is mapped to a face of the octahedron.
 pub(crate) trait Projection: Copy + Send + Sync + 'static {
+    /// See [`Formula::PRECISE_USE`](crate::formula::Formula::PRECISE_USE).
+    const PRECISE_USE: Use = Use::Sometimes;
+
     /// The point of |v|, whose components add to M.
     fn project<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V>;
     /// The unit vector of a point whose magnitudes add to 1.
@@ -40,6 +43,8 @@ pub(crate) struct Warped;
 pub(crate) struct EqualArea;
 
 impl Projection for Central {
+    const PRECISE_USE: Use = Use::Often;
+
     #[inline(always)]
     fn project<V: Simd>(v: Vec3<V>, steps: Steps) -> Vec3<V> {
         let v = v.abs();

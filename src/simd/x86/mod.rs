@@ -12,7 +12,7 @@ mod shuffle;
 
 use fearless_simd::{Avx2, Avx512, Level};
 
-use super::BatchLoop;
+use super::{BatchLoop, Use};
 use lanes::{F32x8, F32x16};
 
 /// Instructions that the processor was found to have. Nothing but the lanes calls
@@ -44,7 +44,8 @@ impl Token for Avx512 {
 #[inline(always)]
 pub(super) fn dispatch<L: BatchLoop>(batch: L) -> Option<L> {
     let level = Level::new();
-    if cfg!(not(disable_dispatch_avx512)) && L::USE_AVX512 && level.as_avx512().is_some() {
+    let has_avx512_form = L::USE != Use::Rare && cfg!(not(disable_dispatch_avx512));
+    if has_avx512_form && level.as_avx512().is_some() {
         batch.run::<F32x16>();
     } else if cfg!(not(disable_dispatch_avx2)) && level.as_avx2().is_some() {
         batch.run::<F32x8>();
