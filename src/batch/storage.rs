@@ -351,9 +351,9 @@ mod tests {
 
     #[test]
     fn longer_codes_are_words_in_their_order() {
-        fn check<B: CodeBytes, const N: usize>(words: [i32; N], bytes: B)
+        fn check<B, const N: usize>(words: [i32; N], bytes: B)
         where
-            B: PartialEq + core::fmt::Debug,
+            B: CodeBytes + PartialEq + core::fmt::Debug,
             B::Shape: CodeShape<In<f32> = [I32x1; N]>,
         {
             let words = words.map(I32x1);

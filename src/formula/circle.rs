@@ -155,5 +155,7 @@ mod tests {
         // 2 pi / 2^31.
         let [x, y] = Circle::new(31).direction::<f32>(1.into());
         assert!(x == 1.0 && (y / 2.925_836_2e-9 - 1.0).abs() < 1e-6);
+        let [x, y] = Circle::new(31).direction::<f32>(((1 << 29) + 1).into());
+        assert!((x / -2.925_836_2e-9 - 1.0).abs() < 1e-6 && y == 1.0);
     }
 }

@@ -185,7 +185,7 @@ mod tests {
 
     #[test]
     fn of_all_points_the_nearest_is_found() {
-        for n in [5, 13, 30, 100] {
+        for n in [5, 30, 1000] {
             let formula = Fibonacci::new(n as u32);
             for turn in 0..60 {
                 // Around both poles, and farther and farther from them.

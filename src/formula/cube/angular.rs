@@ -229,14 +229,11 @@ mod tests {
     #[test]
     fn of_all_codes_the_nearest_is_found() {
         let small = AngularCube::new(8);
-        for v in [
-            [0.1f32, 0.2, 0.9],
-            [-0.7, 0.7, 0.1],
-            [0.3, -0.2, -0.4],
-            [0.9, -0.01, -0.05],
-            [-0.2, -0.9, -0.8],
-        ] {
-            let v = Vec3::from(v).normalize();
+        for turn in 0..60 {
+            // From pole to pole, round and round.
+            let (sin, cos) = (turn as f32 * 0.7).sin_cos();
+            let z = turn as f32 * 0.1 - 2.95;
+            let v = Vec3::new(sin, cos, z).normalize();
             let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
             let least = (0..256).map(distance).fold(4.0, f32::min);
             assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
