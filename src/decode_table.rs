@@ -435,3 +435,91 @@ fn look_up_aos<C: Copy, const N: usize>(
     }
     Ok(())
 }
+
+#[cfg(all(test, feature = "octahedral"))]
+mod tests {
+    use super::*;
+    use crate::codec::{HemiOct16, Oct8, Oct12, Oct18, Octant16};
+
+    #[test]
+    fn tables_of_all_codes_give_the_bits_of_the_codec() {
+        let mut vectors = [[0.0; 3]; DecodeTable::<Oct8>::LEN];
+        let table = DecodeTable::<Oct8>::fill(&mut vectors).unwrap();
+        for code in 0..=255 {
+            assert_eq!(table.decode(code), Oct8::decode(code));
+        }
+        // More than a part, in two bytes.
+        let mut vectors = [[0.0; 3]; DecodeTable::<Oct12>::LEN];
+        let table = DecodeTable::<Oct12>::fill(&mut vectors).unwrap();
+        for code in 0..4096 {
+            assert_eq!(table.decode(code), Oct12::decode(code));
+        }
+        assert_eq!(table.decode(0xF123), Oct12::decode(0x0123));
+    }
+
+    #[test]
+    fn a_format_has_as_many_entries_as_codes() {
+        assert_eq!(FormatTable::len_for(Format::Oct8), Some(256));
+        assert_eq!(FormatTable::len_for(Format::Octant16), Some(65_536));
+        assert_eq!(FormatTable::len_for(Format::Oct18), None);
+        let refused = FormatTable::fill(Format::Oct18, &mut []).map(|_| ());
+        assert_eq!(refused, Err(LengthMismatch::Table { vectors: 0, entries: None }));
+        let refused = DecodeTable::<Oct8>::fill(&mut [[0.0; 3]; 255]).map(|_| ());
+        assert_eq!(refused, Err(LengthMismatch::Table { vectors: 255, entries: Some(256) }));
+        assert!(Oct18::FORMAT == Format::Oct18);
+    }
+
+    #[test]
+    fn a_format_table_reads_little_endian_bytes() {
+        let mut vectors = [[0.0; 3]; 4096];
+        let table = FormatTable::fill(Format::Oct12, &mut vectors).unwrap();
+        assert_eq!(table.format(), Format::Oct12);
+        let [mut x, mut y, mut z] = [[0.0; 2]; 3];
+        let v = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+        table.decode_bytes(&[0x23, 0x01, 0x45, 0xF6], v).unwrap();
+        assert_eq!([x[0], y[0], z[0]], Oct12::decode(0x0123));
+        assert_eq!([x[1], y[1], z[1]], Oct12::decode(0x0645));
+        let mut vectors = [[0.0; 3]; 256];
+        let table = FormatTable::fill(Format::Oct8, &mut vectors).unwrap();
+        let v = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+        table.decode_bytes(&[0x35, 0x9A], v).unwrap();
+        assert_eq!([x[1], y[1], z[1]], Oct8::decode(0x9A));
+        assert!(table.decode_bytes(&[0; 3], SoaMut { x: &mut x, y: &mut y, z: &mut z }).is_err());
+    }
+
+    #[test]
+    fn an_octant_is_mirrored_into_all_others() {
+        // The 36 points (i, j, k) with i + j + k = 7.
+        assert_eq!(OctantTable::<Oct8>::LEN, 36);
+        let mut vectors = [[0.0; 3]; 36];
+        let table = OctantTable::<Oct8>::fill(&mut vectors).unwrap();
+        for code in 0..=255 {
+            assert_eq!(table.decode(code).map(f32::to_bits), Oct8::decode(code).map(f32::to_bits));
+        }
+        assert!(vectors.iter().flatten().all(|c| *c >= 0.0));
+        assert!(OctantTable::<Oct8>::fill(&mut vectors[1..]).is_err());
+        assert_eq!([OctantTable::<HemiOct16>::LEN, OctantTable::<Octant16>::LEN], [16_384, 8128]);
+    }
+
+    #[test]
+    fn structures_of_arrays_and_arrays_of_structures_are_filled() {
+        let mut vectors = [[0.0; 3]; 256];
+        let mut octant = [[0.0; 3]; 36];
+        let table = DecodeTable::<Oct8>::fill(&mut vectors).unwrap();
+        let small = OctantTable::<Oct8>::fill(&mut octant).unwrap();
+        let codes: [u8; 33] = core::array::from_fn(|i| (i * 71) as u8);
+        let [mut x, mut y, mut z] = [[0.0; 33]; 3];
+        let [mut rows, mut small_rows] = [[[9.0; 4]; 33]; 2];
+        table.decode_soa(&codes, SoaMut { x: &mut x, y: &mut y, z: &mut z }).unwrap();
+        table.decode_aos(&codes, &mut rows).unwrap();
+        small.decode_aos(&codes, &mut small_rows).unwrap();
+        assert_eq!(rows, small_rows);
+        for (i, row) in rows.iter().enumerate() {
+            let [a, b, c] = Oct8::decode(codes[i]);
+            assert_eq!((*row, [x[i], y[i], z[i]]), ([a, b, c, 9.0], [a, b, c]));
+        }
+        assert!(table.decode_aos(&codes, &mut rows[1..]).is_err());
+        let short = SoaMut { x: &mut x, y: &mut y[1..], z: &mut z };
+        assert!(small.decode_soa(&codes, short).is_err());
+    }
+}

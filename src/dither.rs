@@ -417,3 +417,110 @@ impl Oct<Central> {
         encode_batch(self, first, vectors, codes);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[cfg(feature = "octahedral")]
+    use crate::codec::{HemiOct16, Oct16, Oct24};
+
+    const FREE: Rotation = Rotation { width: 0.25, upright: false, back: false };
+    const UPRIGHT: Rotation = Rotation { upright: true, ..FREE };
+
+    #[test]
+    fn steps_are_powers_of_the_root_of_roberts() {
+        let g = (0..100).fold(1.2f64, |g, _| (g + 1.0).sqrt().sqrt());
+        assert!((g - 1.220_744_084_605_76).abs() < 1e-13);
+        for (step, power) in Rotation::STEPS.into_iter().zip(1..) {
+            let exact = 4_294_967_296.0 / g.powi(power);
+            assert!((f64::from(step as u32) - exact).abs() < 1.0, "{power}");
+        }
+    }
+
+    #[test]
+    fn random_bits_are_those_of_the_source() {
+        // lowbias32, computed elsewhere.
+        let values = [0, 1, 2, -1].map(|n| random(I32x1(n)).0 as u32);
+        assert_eq!(values, [0, 0x6889_90C0, 0xD113_2181, 0x6768_824A]);
+    }
+
+    #[test]
+    fn the_angle_is_that_of_the_vector() {
+        // Element 1: u.z = 0.25 (2^32 / g^3 - 2^32) / 2^31 = -0.225150; 2 atan 0.225150 = 25.3771 degrees.
+        let v = UPRIGHT.turn_one([1.0, 0.0, 0.0], 1);
+        assert!((v[0] - 0.903_507).abs() < 1e-5 && (v[1] + 0.428_574).abs() < 1e-5, "{v:?}");
+        assert_eq!(v[2], 0.0);
+    }
+
+    #[test]
+    fn element_zero_is_not_turned() {
+        let v = [0.48, 0.36, 0.8];
+        assert_eq!(FREE.turn_one(v, 0), v);
+        // A length is kept, and not kept on the way back.
+        assert_eq!(FREE.turn_one([0.0, 0.0, 4.0], 0), [0.0, 0.0, 4.0]);
+        assert_eq!(FREE.back().turn_one([0.0, 0.0, 4.0], 0), [0.0, 0.0, 1.0]);
+        assert_eq!(FREE.turn_one([f32::NAN, 0.0, 0.0], 0), [0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn turning_back_undoes_turning() {
+        for rotation in [FREE, UPRIGHT] {
+            for number in [1, 2, 3, 1000, u32::MAX] {
+                let v = Vec3::new(0.48f32, 0.36, 0.8);
+                let turned = Vec3::from(rotation.turn_one(v.to_array(), number));
+                assert!((turned.length_squared() - 1.0).abs() < 1e-6);
+                assert!(
+                    turned.distance_squared(v) > 1e-3 && (!rotation.upright || turned.z == v.z)
+                );
+                let back = Vec3::from(rotation.back().turn_one(turned.to_array(), number));
+                assert!(back.distance_squared(v) < 1e-12, "{back:?}");
+            }
+        }
+    }
+
+    #[cfg(feature = "octahedral")]
+    #[test]
+    fn the_width_is_the_greatest_error() {
+        // 0.6406 degrees; a hemisphere's vectors turn around Z.
+        let rotation = Rotation::of(Oct16::FORMAT);
+        assert!((rotation.width - 0.011_181).abs() < 1e-6 && !rotation.upright);
+        assert!(Rotation::of(HemiOct16::FORMAT).upright);
+    }
+
+    #[cfg(feature = "octahedral")]
+    #[test]
+    fn batches_give_what_single_vectors_do() {
+        // Across the ends of blocks and parts, and of the numbers.
+        const LEN: usize = PART + 35;
+        let first = u32::MAX - 20;
+        let x: [f32; LEN] = core::array::from_fn(|i| 0.01 * i as f32 - 1.0);
+        let (y, z) = ([0.3; LEN], [-0.7; LEN]);
+        let v = || Soa { x: &x, y: &y, z: &z };
+        let dither = Dither::new(5);
+        let [mut codes, mut precise, mut stochastic] = [[[0; 3]; LEN]; 3];
+        dither.encode_soa::<Oct24>(first, v(), &mut codes).unwrap();
+        dither.encode_soa_precise::<Oct24>(first, v(), &mut precise).unwrap();
+        dither.encode_soa_stochastic::<Oct24>(first, v(), &mut stochastic).unwrap();
+        let [mut a, mut b, mut c] = [[0.0; LEN]; 3];
+        let decoded = SoaMut { x: &mut a, y: &mut b, z: &mut c };
+        dither.decode_soa::<Oct24>(first, &codes, decoded).unwrap();
+        for i in 0..LEN {
+            let (index, v) = (first.wrapping_add(i as u32), [x[i], y[i], z[i]]);
+            assert_eq!(codes[i], dither.encode::<Oct24>(index, v));
+            assert_eq!(precise[i], dither.encode_precise::<Oct24>(index, v));
+            assert_eq!(stochastic[i], dither.encode_stochastic::<Oct24>(index, v));
+            assert_eq!([a[i], b[i], c[i]], dither.decode::<Oct24>(index, codes[i]));
+        }
+        assert_ne!(codes[..3], precise.map(|_| Oct24::encode([-1.0, 0.3, -0.7]))[..3]);
+    }
+
+    #[cfg(feature = "octahedral")]
+    #[test]
+    fn slices_of_other_lengths_are_refused() {
+        let mut codes = [7; 2];
+        let v = Soa { x: &[1.0; 3], y: &[1.0; 3], z: &[1.0; 3] };
+        let result = Dither::new(0).encode_soa::<Oct16>(0, v, &mut codes);
+        assert_eq!(result, Err(LengthMismatch::Soa { x: 3, y: 3, z: 3, codes: 2 }));
+        assert_eq!(codes, [7; 2]);
+    }
+}

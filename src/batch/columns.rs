@@ -600,3 +600,172 @@ fn repeat<T: Copy>(from: &[T], to: &mut [T]) {
         *to = *from;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::{Kernel, map};
+    use crate::simd::{I32x1, SimdInt};
+    use std::vec::Vec;
+
+    /// (x, y) to (2 x, y + 1).
+    #[derive(Clone, Copy)]
+    struct Change;
+
+    macro_rules! change {
+        ($($from:ty => $to:ty;)*) => { $(
+            impl Kernel<$from, $to> for Change {
+                fn run<V: Simd>(self, [x, y]: [V; 2]) -> [V; 2] {
+                    [x + x, y + 1.0]
+                }
+            }
+        )* };
+    }
+    change! {
+        Columns<2> => Columns<2>;
+        Columns<2> => Rows<3, 2>;
+        Rows<3, 2> => Columns<2>;
+        Columns<2> => Strided<2>;
+        Strided<2> => Columns<2>;
+    }
+
+    /// x in columns and one in front, to see whether the elements beside them stay.
+    fn input(len: usize) -> [Vec<f32>; 2] {
+        [(0..len).map(|i| i as f32).collect(), (0..len).map(|i| 100.0 + i as f32).collect()]
+    }
+
+    fn expected(i: usize) -> [f32; 2] {
+        [2.0 * i as f32, 101.0 + i as f32]
+    }
+
+    /// The bytes of a row of `stride` bytes that begins with two floats.
+    fn row(values: [f32; 2], stride: usize) -> Vec<u8> {
+        let mut row: Vec<u8> = values.into_iter().flat_map(f32::to_ne_bytes).collect();
+        row.resize(stride, 0xEE);
+        row
+    }
+
+    #[test]
+    fn any_number_of_columns_elements_is_changed_and_no_other() {
+        for len in 0..=33 {
+            let [x, y] = input(len);
+            let [mut a, mut b] = [[-1.0f32; 40]; 2];
+            map::<Columns<2>, Columns<2>>(Change, [&x, &y], [&mut a[..len], &mut b[..len]]);
+            for i in 0..40 {
+                let wanted = if i < len { expected(i) } else { [-1.0; 2] };
+                assert_eq!([a[i], b[i]], wanted, "{i} of {len}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_rows_have_besides_stays() {
+        for len in 0..=33 {
+            let [x, y] = input(len);
+            let mut rows = [[[0xEE; 4]; 3]; 40];
+            map::<Columns<2>, Rows<3, 2>>(Change, [&x, &y], &mut rows[..len]);
+            for (i, row) in rows.into_iter().enumerate() {
+                let wanted =
+                    if i < len { expected(i).map(f32::to_ne_bytes) } else { [[0xEE; 4]; 2] };
+                assert_eq!(row, [wanted[0], wanted[1], [0xEE; 4]], "{i} of {len}");
+            }
+            let mut rows = [[[0xEE; 4]; 3]; 40];
+            for (row, (x, y)) in rows.iter_mut().zip(x.iter().zip(&y)) {
+                [row[0], row[1]] = [x.to_ne_bytes(), y.to_ne_bytes()];
+            }
+            let [mut a, mut b] = [[-1.0f32; 40]; 2];
+            map::<Rows<3, 2>, Columns<2>>(Change, &rows[..len], [&mut a[..len], &mut b[..len]]);
+            assert!((0..len).all(|i| [a[i], b[i]] == expected(i)) && a[len..] == [-1.0; 40][len..]);
+        }
+    }
+
+    #[test]
+    fn strided_rows_keep_what_is_between_them() {
+        for stride in [16, 17, 23, 32] {
+            for len in [0, 1, 2, 7, 8, 9, 15, 16, 17, 33] {
+                let [x, y] = input(len);
+                let mut bytes: Vec<u8> = [0xEE].repeat(stride * len);
+                let rows = RowSliceMut { bytes: &mut bytes, stride };
+                map::<Columns<2>, Strided<2>>(Change, [&x, &y], rows);
+                let wanted: Vec<u8> = (0..len).flat_map(|i| row(expected(i), stride)).collect();
+                assert_eq!(bytes, wanted, "{len} of {stride}");
+
+                let bytes: Vec<u8> = (0..len).flat_map(|i| row([x[i], y[i]], stride)).collect();
+                let [mut a, mut b] = [[-1.0f32; 40]; 2];
+                let rows = RowSlice { bytes: &bytes, stride };
+                map::<Strided<2>, Columns<2>>(Change, rows, [&mut a[..len], &mut b[..len]]);
+                assert!((0..len).all(|i| [a[i], b[i]] == expected(i)), "{len} of {stride}");
+            }
+        }
+    }
+
+    /// Codes of three bytes, and numbers: the sum of both, and the low byte of the code.
+    #[derive(Clone, Copy)]
+    struct Number;
+
+    impl Kernel<(CodeColumn<[u8; 3]>, Indices), (CodeColumn<[u8; 3]>, CodeColumn<[u8; 1]>)> for Number {
+        fn run<V: Simd>(self, (code, number): (V::Int, V::Int)) -> (V::Int, V::Int) {
+            (code + number, code.low_bits(8))
+        }
+    }
+
+    #[test]
+    fn numbers_go_on_behind_a_block_and_wrap() {
+        for len in 0..=33 {
+            let codes: Vec<[u8; 3]> = (0..len).map(|i| [i as u8, 1, 0]).collect();
+            let (mut sums, mut bytes) = ([[0xEE; 3]; 40], [0xEE; 40]);
+            map::<(CodeColumn<[u8; 3]>, Indices), (CodeColumn<[u8; 3]>, CodeColumn<[u8; 1]>)>(
+                Number,
+                (
+                    CodeSlice { bytes: codes.as_flattened(), size: 3 },
+                    Indices { first: u32::MAX - 2, len },
+                ),
+                (
+                    CodeSliceMut { bytes: sums[..len].as_flattened_mut(), size: 3 },
+                    CodeSliceMut { bytes: &mut bytes[..len], size: 1 },
+                ),
+            );
+            for i in 0..40 {
+                // 256 + i - 3 + i.
+                let [low, high, ..] = (253 + 2 * i as u32).to_le_bytes();
+                let wanted = if i < len { ([low, high, 0], i as u8) } else { ([0xEE; 3], 0xEE) };
+                assert_eq!((sums[i], bytes[i]), wanted, "{i} of {len}");
+            }
+        }
+    }
+
+    #[test]
+    fn splitting_beyond_the_end_fails() {
+        let x = [1.0f32, 2.0, 3.0];
+        let (first, others) = <Columns<2> as Input>::split([&x, &x], 1).unwrap();
+        assert_eq!((first, others), ([&x[..1]; 2], [&x[1..]; 2]));
+        assert!(<Columns<2> as Input>::split([&x, &x[..1]], 2).is_none());
+        assert!(<Indices as Input>::split(Indices { first: 7, len: 2 }, 3).is_none());
+        let (_, others) = <Indices as Input>::split(Indices { first: 7, len: 2 }, 2).unwrap();
+        assert_eq!((others.first, others.len), (9, 0));
+        let rows = RowSlice { bytes: &[0; 40], stride: 20 };
+        assert_eq!(<Strided<3> as Input>::len(rows), 2);
+        assert!(<Strided<3> as Input>::split(rows, 3).is_none());
+    }
+
+    #[test]
+    fn padding_repeats_the_elements() {
+        let padded = <Columns<1> as Input>::pad([&[5.0, 6.0, 7.0]]);
+        assert_eq!(padded[0][..7], [5.0, 6.0, 7.0, 5.0, 6.0, 7.0, 5.0]);
+        let codes = CodeSlice { bytes: &[1, 2, 3, 4], size: 2 };
+        let buffer = <CodeColumn<[u8; 2]> as Input>::pad(codes);
+        let padded = <CodeColumn<[u8; 2]> as Input>::slices(&buffer, 3).unwrap();
+        assert_eq!((padded.bytes, padded.size), (&[1, 2, 3, 4, 1, 2][..], 2));
+    }
+
+    #[test]
+    fn blocks_need_all_their_elements() {
+        let x = [1.0f32, 2.0];
+        assert!(<Columns<1> as Input>::blocks::<f32>([&x], 2).is_some());
+        assert!(<Columns<1> as Input>::blocks::<f32>([&x], 3).is_none());
+        let short = RowSlice { bytes: &[0; 60], stride: 15 };
+        assert!(<Strided<3> as Input>::blocks::<f32>(short, 1).is_none());
+        let numbers = Indices { first: 10, len: 5 };
+        assert_eq!(<Indices as Input>::load::<f32>(numbers, 3), Some(I32x1(13)));
+    }
+}

@@ -441,3 +441,158 @@ transpose! {
     [const K: usize] Strided<K> => Columns<K>;
     [const K: usize] Columns<K> => Strided<K>;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    /// Around the sizes of blocks and parts.
+    const LENGTHS: [usize; 16] =
+        [0, 1, 2, 7, 8, 9, 15, 16, 17, 31, 33, FEW, FEW + 1, MANY - 1, MANY, MANY + 1];
+    const STRIDES: [usize; 7] = [12, 13, 15, 16, 17, 20, 33];
+
+    fn vector(i: usize) -> [f32; 3] {
+        [i as f32, 0.25 + i as f32, -(i as f32)]
+    }
+
+    /// The code of a vector: its number.
+    fn encode_numbers([x, y, z]: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+        assert_eq!([x.len(), y.len(), z.len()], [codes.bytes.len() / 2; 3]);
+        for (i, code) in codes.bytes.as_chunks_mut().0.iter_mut().enumerate() {
+            let is_vector = [x[i], y[i], z[i]] == vector(x[i] as usize);
+            *code = if is_vector { x[i] as u16 } else { u16::MAX }.to_le_bytes();
+        }
+    }
+
+    fn decode_numbers(codes: CodeSlice<'_>, [x, y, z]: [&mut [f32]; 3], _: &Fence) {
+        assert_eq!([x.len(), y.len(), z.len()], [codes.bytes.len() / 2; 3]);
+        for (i, code) in codes.bytes.as_chunks().0.iter().enumerate() {
+            [x[i], y[i], z[i]] = vector(u16::from_le_bytes(*code).into());
+        }
+    }
+
+    /// Little-endian codes from 0 on.
+    fn numbers(len: usize) -> Vec<u8> {
+        (0..len).flat_map(|i| (i as u16).to_le_bytes()).collect()
+    }
+
+    /// Rows, between which is 0xEE. The last one ends with its z, but for those of 16 bytes, which are whole.
+    fn rows(len: usize, stride: usize, filled: bool) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for i in 0..len {
+            bytes.resize(i * stride, 0xEE);
+            let floats = vector(i).into_iter().flat_map(f32::to_ne_bytes);
+            bytes.extend(floats.map(|byte| if filled { byte } else { 0xDD }));
+        }
+        if stride == 16 {
+            bytes.resize(16 * len, 0xEE);
+        }
+        bytes
+    }
+
+    #[test]
+    fn rows_of_any_stride_are_encoded() {
+        for stride in STRIDES {
+            for len in LENGTHS {
+                let bytes = rows(len, stride, true);
+                let mut codes: Vec<u8> = [0xEE].repeat(2 * len);
+                let vectors = Vectors::Rows { bytes: &bytes, stride };
+                encode(vectors, CodesMut::little_endian(&mut codes, 2), &encode_numbers);
+                assert_eq!(codes, numbers(len), "{len} of {stride}");
+            }
+        }
+    }
+
+    #[test]
+    fn rows_of_any_stride_are_decoded_and_keep_what_is_between() {
+        for stride in STRIDES {
+            for len in LENGTHS {
+                let mut bytes = rows(len, stride, false);
+                let vectors = VectorsMut::Rows { bytes: &mut bytes, stride };
+                let codes = numbers(len);
+                decode(Codes::little_endian(&codes, 2), vectors, &decode_numbers);
+                assert_eq!(bytes, rows(len, stride, true), "{len} of {stride}");
+            }
+        }
+    }
+
+    #[test]
+    fn native_arrays_are_rows() {
+        let vectors: [[f32; 4]; 5] = core::array::from_fn(|i| {
+            let [x, y, z] = vector(i);
+            [x, y, z, 9.0]
+        });
+        let mut codes = [0u16; 5];
+        encode(Vectors::rows(&vectors), CodesMut::native(&mut codes), &encode_numbers);
+        assert_eq!(codes, [0, 1, 2, 3, 4]);
+        let mut decoded = [[9.0f32; 4]; 5];
+        decode(Codes::native(&codes), VectorsMut::rows(&mut decoded), &decode_numbers);
+        assert_eq!(decoded, vectors);
+    }
+
+    #[test]
+    fn columns_are_passed_on() {
+        let [mut x, mut y, mut z] = [[0.0f32; 3]; 3];
+        let codes = Codes::native(&[7u16, 8, 9]);
+        decode(codes, VectorsMut::Columns([&mut x, &mut y, &mut z]), &decode_numbers);
+        assert_eq!([x[2], y[2], z[2]], vector(9));
+        let mut back = [0u16; 3];
+        encode(Vectors::Columns([&x, &y, &z]), CodesMut::native(&mut back), &encode_numbers);
+        assert_eq!(back, [7, 8, 9]);
+    }
+
+    #[test]
+    fn codes_are_changed_in_place_a_part_at_a_time() {
+        for len in LENGTHS {
+            let mut codes: Vec<u16> = (0..len as u16).collect();
+            map_codes(CodesMut::native(&mut codes), &|from, to| {
+                assert_eq!([from.size, to.size], [2; 2]);
+                for (from, to) in from.bytes.as_chunks().0.iter().zip(to.bytes.as_chunks_mut().0) {
+                    *to = (u16::from_le_bytes(*from) + 5).to_le_bytes();
+                }
+            });
+            assert!(codes.iter().zip(5..).all(|(code, i)| *code == i));
+        }
+    }
+
+    #[test]
+    fn transcoding_goes_by_way_of_vectors() {
+        for len in LENGTHS {
+            let (from, mut to) = (numbers(len), [0xEE].repeat(2 * len));
+            transcode(
+                &|codes, vectors| decode(codes, vectors, &decode_numbers),
+                &|vectors, codes| encode(vectors, codes, &encode_numbers),
+                Codes::little_endian(&from, 2),
+                CodesMut::little_endian(&mut to, 2),
+            );
+            assert_eq!(from, to);
+        }
+    }
+
+    #[test]
+    fn codes_are_counted_by_their_size() {
+        assert_eq!(Codes::native(&[[0u16; 3]; 5]).len(), 5);
+        assert_eq!(Codes::little_endian(&[0; 10], 3).len(), 3);
+        assert_eq!(Codes::little_endian(&[], 3).parts(2).count(), 0);
+        let sizes: Vec<usize> =
+            Codes::little_endian(&[0; 15], 3).parts(2).map(Codes::len).collect();
+        assert_eq!(sizes, [2, 2, 1]);
+    }
+
+    #[test]
+    fn vectors_are_split_at_rows() {
+        fn lengths((first, others): (VectorsMut<'_, 3>, VectorsMut<'_, 3>)) -> [usize; 2] {
+            [first, others].map(|vectors| match vectors {
+                VectorsMut::Rows { bytes, stride: 14 } => bytes.len(),
+                _ => usize::MAX,
+            })
+        }
+        let mut bytes = [0; 40];
+        // Two rows, and a third that ends early.
+        for (at, expected) in [(0, [0, 40]), (2, [28, 12]), (3, [40, 0])] {
+            let vectors = VectorsMut::Rows { bytes: &mut bytes, stride: 14 };
+            assert_eq!(lengths(vectors.split_at(at)), expected);
+        }
+    }
+}

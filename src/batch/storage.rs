@@ -345,3 +345,86 @@ pub(crate) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
         *to = *from;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+
+    #[test]
+    fn words_are_little_endian_bytes() {
+        fn check<B: CodeBytes<Shape = Word> + PartialEq + core::fmt::Debug>(bytes: B, code: u32) {
+            let mut stored = [B::zeroed()];
+            // Of what is above the bytes nothing is kept.
+            B::store::<f32>(I32x1(0x4433_2211), &mut stored);
+            assert_eq!(stored, [bytes]);
+            assert_eq!(B::load::<f32>(&stored).0 as u32, code);
+        }
+        check([0x11u8], 0x11);
+        check([0x11u8, 0x22], 0x2211);
+        check([0x11u8, 0x22, 0x33], 0x33_2211);
+        check([0x11u8, 0x22, 0x33, 0x44], 0x4433_2211);
+    }
+
+    #[test]
+    fn longer_codes_are_words_in_their_order() {
+        fn check<B, const N: usize>(words: [i32; N], bytes: B)
+        where
+            B: CodeBytes + PartialEq + core::fmt::Debug,
+            B::Shape: CodeShape<In<f32> = [I32x1; N]>,
+        {
+            let words = words.map(I32x1);
+            assert_eq!(to_native::<B, B>(words), bytes);
+            assert_eq!(from_native::<B, B>(bytes), words);
+        }
+        check([0x2211, 0x4433, 0x6655], [0x11u8, 0x22, 0x33, 0x44, 0x55, 0x66]);
+        check([0x4433_2211, 0x0877_6655], [0x11u8, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x08]);
+        let words = [0x0403_0201, 0x0807_0605, 0x0C0B_0A09];
+        check(words, [1u8, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+    }
+
+    #[test]
+    fn native_codes_are_integers() {
+        assert_eq!(to_native::<[u8; 2], u16>(I32x1(0x2211)), 0x2211);
+        assert_eq!(to_native::<[u8; 3], [u8; 3]>(I32x1(0x33_2211)), [0x11, 0x22, 0x33]);
+        assert_eq!(from_native::<[u8; 4], u32>(0x4433_2211).0, 0x4433_2211);
+        let words = [0x2211, 0x4433, 0x6655];
+        assert_eq!(to_native::<[u8; 6], [u16; 3]>(words.map(I32x1)), [0x2211, 0x4433, 0x6655]);
+        let halves = from_native::<[u8; 8], u64>(0x0877_6655_4433_2211);
+        assert_eq!(halves, [0x4433_2211, 0x0877_6655].map(I32x1));
+    }
+
+    #[test]
+    fn words_go_by_the_size_of_a_code() {
+        let bytes: [u8; 12] = core::array::from_fn(|i| i as u8);
+        for (size, second) in [(1, 0x01), (2, 0x0302), (3, 0x05_0403), (4, 0x0706_0504)] {
+            let count = bytes.len() / size;
+            let blocks = Words::blocks::<f32>(CodeSlice { bytes: &bytes, size }, count).unwrap();
+            assert_eq!(Words::load::<f32>(blocks, 1), Some(I32x1(second)));
+            assert_eq!(Words::load::<f32>(blocks, count), None);
+            assert!(Words::blocks::<f32>(CodeSlice { bytes: &bytes, size }, count + 1).is_none());
+
+            let mut written = [0xEE; 12];
+            let codes = CodeSliceMut { bytes: &mut written, size };
+            let mut blocks = Words::blocks_mut::<f32>(codes, count).unwrap();
+            Words::store::<f32>(I32x1(second), &mut blocks, 1);
+            Words::store::<f32>(I32x1(-1), &mut blocks, count);
+            assert_eq!(written[size..2 * size], bytes[size..2 * size]);
+            assert!(written[..size].iter().chain(&written[2 * size..]).all(|b| *b == 0xEE));
+        }
+    }
+
+    #[test]
+    fn slices_are_counted_and_split_in_codes() {
+        let bytes = [1, 2, 3, 4, 5, 6, 7];
+        let codes = CodeSlice { bytes: &bytes, size: 3 };
+        assert_eq!(codes.len(), 2);
+        let (first, others) = codes.split_at(1).unwrap();
+        assert_eq!(
+            (first.bytes, others.bytes, others.size),
+            (&[1, 2, 3][..], &[4, 5, 6, 7][..], 3)
+        );
+        assert!(codes.split_at(3).is_none());
+        assert_eq!(CodeSlice { bytes: &bytes, size: 0 }.len(), 0);
+    }
+}

@@ -86,3 +86,76 @@ impl Circle {
         map2!([cos, sin], |c| c + 0.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn nearest(bits: u32, x: f32, y: f32) -> i32 {
+        Circle::new(bits).nearest([x, y]).0
+    }
+
+    #[test]
+    fn angles_are_counted_from_x_to_y() {
+        let eighths = [
+            [1.0, 0.0],
+            [1.0, 1.0],
+            [0.0, 1.0],
+            [-1.0, 1.0],
+            [-1.0, 0.0],
+            [-1.0, -1.0],
+            [0.0, -1.0],
+        ];
+        for (n, [x, y]) in (0..).zip(eighths) {
+            assert_eq!(nearest(8, x, y), 32 * n);
+            assert_eq!(nearest(31, 3.0 * x, 3.0 * y), n << 28);
+        }
+        // 30 degrees are 256 / 12 = 21.3 steps, and -30 degrees 234.7.
+        assert_eq!([nearest(8, 0.866, 0.5), nearest(8, 0.866, -0.5)], [21, 235]);
+        assert_eq!([nearest(8, 1.0, -0.001), nearest(8, 0.0, 0.0)], [0, 0]);
+    }
+
+    #[test]
+    fn ties_go_to_even() {
+        let diagonals = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+        assert_eq!(diagonals.map(|[x, y]| nearest(2, x, y)), [0, 2, 2, 0]);
+        assert_eq!([nearest(1, 0.0, 1.0), nearest(1, 0.0, -1.0), nearest(1, -1.0, 1.0)], [0, 0, 1]);
+    }
+
+    #[test]
+    fn long_codes_are_as_fine_as_f32() {
+        // atan(3/4) is 0.10241638235 of a turn.
+        assert!((nearest(31, 4.0, 3.0) - 219_937_506).abs() < 64);
+        assert!((nearest(25, 4.0, 3.0) - 3_436_523).abs() <= 1);
+        assert_eq!(nearest(24, 4.0, 3.0), 1_718_262);
+    }
+
+    #[test]
+    fn quarters_decode_exactly_and_without_negative_zeros() {
+        for bits in [2, 8, 24, 25, 31] {
+            let circle = Circle::new(bits);
+            let quarters = [[1.0f32, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+            for (n, quarter) in (0..).zip(quarters) {
+                let decoded = circle.direction::<f32>((n << (bits - 2)).into());
+                assert_eq!(decoded.map(f32::to_bits), quarter.map(f32::to_bits));
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_low_bits_count() {
+        // 32 of 256 are 45 degrees.
+        let [x, y] = Circle::new(8).direction::<f32>(0x7FFF_FF20.into());
+        let half = core::f32::consts::FRAC_1_SQRT_2;
+        assert!((x - half).abs() < 2e-7 && (y - half).abs() < 2e-7);
+    }
+
+    #[test]
+    fn one_step_of_a_long_code_is_seen() {
+        // 2 pi / 2^31.
+        let [x, y] = Circle::new(31).direction::<f32>(1.into());
+        assert!(x == 1.0 && (y / 2.925_836_2e-9 - 1.0).abs() < 1e-6);
+        let [x, y] = Circle::new(31).direction::<f32>(((1 << 29) + 1).into());
+        assert!((x / -2.925_836_2e-9 - 1.0).abs() < 1e-6 && y == 1.0);
+    }
+}

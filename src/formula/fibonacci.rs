@@ -137,3 +137,78 @@ impl Formula for Fibonacci {
 }
 
 kernels!(Fibonacci: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_points_are_a_golden_section_of_a_turn_apart() {
+        // z = 3/4, 1/4, -1/4 and -3/4; 0, 222.49, 84.98 and 307.48 degrees.
+        let points = [
+            [0.661_437_8f32, 0.0, 0.75],
+            [-0.713_954_3, -0.654_040_7, 0.25],
+            [0.084_649_6, 0.964_538_5, -0.25],
+            [0.402_444_5, -0.524_917_6, -0.75],
+        ];
+        let formula = Fibonacci::new(4);
+        for (i, point) in (0..).zip(points) {
+            let decoded = formula.decode::<f32>(i.into());
+            assert!(decoded.distance_squared(point.into()) < 1e-12, "{decoded:?}");
+            assert_eq!(formula.encode(Vec3::from(point) * 3.0).0, i);
+        }
+    }
+
+    #[test]
+    fn indices_beyond_the_last_read_as_the_last() {
+        let formula = Fibonacci::new(1000);
+        let last = formula.decode::<f32>(999.into());
+        for index in [1000, i32::MAX, i32::MIN, -1] {
+            assert_eq!(formula.decode::<f32>(index.into()), last);
+            assert_eq!(formula.mirror::<f32>(index.into(), [false; 3]).0, 999);
+        }
+        assert_eq!(formula.mirror::<f32>(998.into(), [false; 3]).0, 998);
+    }
+
+    #[test]
+    fn one_point_is_on_the_equator() {
+        let formula = Fibonacci::new(1);
+        assert_eq!(formula.decode::<f32>(0.into()).to_array(), [1.0, 0.0, 0.0]);
+        assert_eq!(formula.encode(Vec3::new(-0.3f32, 0.2, 0.9)).0, 0);
+    }
+
+    #[test]
+    fn the_numbers_are_those_of_fibonacci() {
+        assert_eq!(NUMBERS[..7], [1, 2, 3, 5, 8, 13, 21]);
+        assert_eq!(NUMBERS[19], 10_946);
+    }
+
+    #[test]
+    fn of_all_points_the_nearest_is_found() {
+        for n in [5, 30, 1000] {
+            let formula = Fibonacci::new(n as u32);
+            for turn in 0..60 {
+                // Around both poles, and farther and farther from them.
+                let (sin, cos) = (turn as f32 * 0.7).sin_cos();
+                let v = Vec3::new(
+                    sin,
+                    cos,
+                    if turn % 2 == 0 { 4.0 } else { -4.0 } - 0.07 * turn as f32,
+                );
+                let v = v.normalize();
+                let distance = |i: i32| formula.decode::<f32>(i.into()).distance_squared(v);
+                let least = (0..n).map(distance).fold(4.0, f32::min);
+                assert!(distance(formula.encode(v).0) <= least + 1e-7, "{v:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_index_is_canonical() {
+        let formula = Fibonacci::new(1 << 24);
+        for i in [0, 1, 2, 7, 1000, 8_388_607, 8_388_608, 16_777_214, 16_777_215] {
+            assert_eq!(formula.encode(formula.decode::<f32>(i.into())).0, i);
+            assert_eq!(formula.mirror::<f32>(i.into(), [false; 3]).0, i);
+        }
+    }
+}

@@ -118,3 +118,78 @@ impl Formula for FrontOct {
 }
 
 kernels!(FrontOct: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_near(v: Vec3<f32>, expected: [f32; 3]) {
+        assert!(v.distance_squared(expected.into()) < 1e-12, "{v:?}");
+    }
+
+    #[test]
+    fn the_equator_of_oct_is_a_parallel_of_the_front() {
+        // F = 2: k = 4/5, b = 3/5. The point (1, 0, 0) is (k, 0, b) / 1. F = 4: k = 8/17, b = 15/17.
+        let [twice, quad] = [FrontOct::new(16, 2), FrontOct::new(16, 4)];
+        assert_near(twice.decode::<f32>(0x007F.into()), [0.8, 0.0, 0.6]);
+        assert_near(quad.decode::<f32>(0x007F.into()), [8.0 / 17.0, 0.0, 15.0 / 17.0]);
+        // +X is n = (4, 0, -3) / 5, so w = 0 and u = 1; folded w = 127 (1 - 4/7) = 54.4.
+        assert_eq!(twice.encode(Vec3::new(1.0f32, 0.0, 0.0)).0, 0x367F);
+        assert_eq!(twice.encode(Vec3::new(8.0f32, 0.0, 6.0)).0, 0x007F);
+    }
+
+    #[test]
+    fn a_step_at_the_front_is_half_of_that_of_oct() {
+        // (1, 0, 126) is 0.454724 degrees off Z; half the tangent of half of that is a sine of 0.0039682.
+        let v = FrontOct::new(16, 2).decode::<f32>(0x0001.into());
+        assert_near(v, [0.003_968_2, 0.0, 0.999_992_1]);
+    }
+
+    #[test]
+    fn promised_axes_survive() {
+        let axes: [[f32; 3]; 6] = [
+            [0.0, 0.0, 1.0],
+            [0.0, 0.0, -1.0],
+            [1.0, 0.0, 0.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, -1.0, 0.0],
+        ];
+        for (formula, count) in
+            [(FrontOct::new(16, 2), 2), (FrontOct::new(32, 2), 6), (FrontOct::new(24, 4), 6)]
+        {
+            for axis in &axes[..count] {
+                for code in
+                    [formula.encode(Vec3::from(*axis)), formula.encode_precise((*axis).into())]
+                {
+                    assert_eq!(formula.decode::<f32>(code).to_array(), *axis);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn canonical_codes_are_those_of_oct() {
+        let formula = FrontOct::new(16, 2);
+        for (code, canonical) in [(0xC07F, 0x407F), (0x8181, 0x7F7F), (0x0080, 0x0081)] {
+            assert_eq!(formula.mirror::<f32>(code.into(), [false; 3]).0, canonical);
+        }
+        assert_eq!(formula.mirror::<f32>(0x3319.into(), [true, false, false]).0, 0x33E7);
+        // The poles change places; nothing else of the lattice is its own mirror image.
+        assert_eq!(formula.mirror::<f32>(0.into(), [false, false, true]).0, 0x7F7F);
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = FrontOct::new(8, 2);
+        for turn in 0..60 {
+            // From pole to pole, round and round.
+            let (sin, cos) = (turn as f32 * 0.7).sin_cos();
+            let z = turn as f32 * 0.1 - 2.95;
+            let v = Vec3::new(sin, cos, z).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..256).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

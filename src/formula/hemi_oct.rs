@@ -185,3 +185,97 @@ impl Formula for SignedOct {
 }
 
 kernels!(HemiOct: Words; SignedOct: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEMI: HemiOct = HemiOct::new(16);
+    const SIGNED: SignedOct = SignedOct::new(17);
+
+    #[test]
+    fn parameters_are_sum_and_difference() {
+        // (1, 2, 2) 127 / 5 = (25.4, 50.8, 50.8): sum 76.2, difference -25.4.
+        let v = Vec3::new(1.0f32, 2.0, 2.0);
+        assert_eq!(HEMI.encode(v).0, 0xE74C);
+        assert_eq!(SIGNED.encode(v).0, 0xE74C);
+        assert_eq!(SIGNED.encode(Vec3 { z: -2.0, ..v }).0, 0x1_E74C);
+        // ((76 - 25) / 2, (76 + 25) / 2, 127 - 76) = (25.5, 50.5, 51), of length 76.1676.
+        let decoded = SIGNED.decode::<f32>(0x1_E74C.into());
+        let expected = Vec3::new(0.334_788, 0.663_012, -0.669_576);
+        assert!(decoded.distance_squared(expected) < 1e-10, "{decoded:?}");
+    }
+
+    #[test]
+    fn what_is_below_the_hemisphere_is_put_on_its_rim() {
+        assert_eq!(HEMI.prepare(Vec3::new(3.0f32, 4.0, -5.0)), Vec3::new(3.0, 4.0, 0.0));
+        assert_eq!(SIGNED.prepare(Vec3::new(3.0f32, 4.0, -5.0)), Vec3::new(3.0, 4.0, -5.0));
+    }
+
+    #[test]
+    fn axes_survive() {
+        for (axis, code) in [
+            ([1.0f32, 0.0, 0.0], 0x7F7F),
+            ([-1.0, 0.0, 0.0], 0x8181),
+            ([0.0, 1.0, 0.0], 0x817F),
+            ([0.0, -1.0, 0.0], 0x7F81),
+            ([0.0, 0.0, 1.0], 0x0000),
+            ([0.0, 0.0, -1.0], 0x1_0000),
+        ] {
+            assert_eq!(SIGNED.encode(axis.into()).0, code);
+            assert_eq!(SIGNED.encode_precise(axis.into()).0, code);
+            assert_eq!(SIGNED.decode::<f32>(code.into()).to_array(), axis);
+            if code < 0x1_0000 {
+                assert_eq!(HEMI.encode(axis.into()).0, code);
+                assert_eq!(HEMI.encode_precise(axis.into()).0, code);
+                assert_eq!(HEMI.decode::<f32>(code.into()).to_array(), axis);
+            }
+        }
+    }
+
+    #[test]
+    fn the_pattern_out_of_range_reads_as_its_neighbour() {
+        assert_eq!(HEMI.mirror::<f32>(0x8000.into(), [false; 3]).0, 0x8100);
+        assert_eq!(HEMI.mirror::<f32>(0x0080.into(), [false; 3]).0, 0x0081);
+    }
+
+    #[test]
+    fn the_equator_is_upper() {
+        for (code, canonical) in
+            [(0x1_7F7F, 0x7F7F), (0x1_007F, 0x007F), (0x1_8123, 0x8123), (0x1_007E, 0x1_007E)]
+        {
+            assert_eq!(SIGNED.mirror::<f32>(code.into(), [false; 3]).0, canonical);
+            assert_eq!(SIGNED.decode::<f32>(code.into()), SIGNED.decode::<f32>(canonical.into()));
+        }
+    }
+
+    #[test]
+    fn mirror_images_swap_or_negate_the_parameters() {
+        // (76, -25) with x negated is (25, -76), and with y negated (-25, 76).
+        for (flips, code) in [
+            ([true, false, false], 0xB419),
+            ([false, true, false], 0x4CE7),
+            ([true, true, false], 0x19B4),
+        ] {
+            assert_eq!(HEMI.mirror::<f32>(0xE74C.into(), flips).0, code);
+        }
+        assert_eq!(SIGNED.mirror::<f32>(0xE74C.into(), [true, false, true]).0, 0x1_B419);
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = SignedOct::new(9);
+        for v in [
+            [0.1f32, 0.2, 0.9],
+            [-0.7, 0.7, 0.1],
+            [0.3, -0.2, -0.4],
+            [0.9, -0.01, -0.05],
+            [-0.2, -0.9, -0.8],
+        ] {
+            let v = Vec3::from(v).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..512).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

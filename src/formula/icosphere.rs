@@ -221,3 +221,80 @@ impl Formula for Icosphere {
 }
 
 kernels!(Icosphere: [u8; 1]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vertices_are_those_of_the_source() {
+        // Lines of Quake II's anorms.h.
+        for v in [
+            [-0.525_731f32, 0.0, 0.850_651],
+            [-0.442_863, 0.238_856, 0.864_188],
+            [-0.295_242, 0.0, 0.955_423],
+            [-0.309_017, 0.5, 0.809_017],
+            [-0.162_460, 0.262_866, 0.951_056],
+            [0.681_718, 0.147_621, 0.716_567],
+        ] {
+            let code = Icosphere.encode(Vec3::from(v));
+            let vertex = Icosphere.decode::<f32>(code);
+            assert!(vertex.distance_squared(v.into()) < 1e-11, "{vertex:?}");
+        }
+    }
+
+    #[test]
+    fn codes_are_numbered_as_the_table_says() {
+        // 3 (1, 0, phi) + (phi, 1, 0), then without moves (1, 0, phi), with x or z negated, moved.
+        for (code, v) in [
+            (0, [0.681_718f32, 0.147_621, 0.716_567]),
+            (7, [-0.681_718, -0.147_621, -0.716_567]),
+            (8, [0.716_567, 0.681_718, 0.147_621]),
+            (120, [0.525_731, 0.0, 0.850_651]),
+            (121, [-0.525_731, 0.0, 0.850_651]),
+            (122, [0.525_731, 0.0, -0.850_651]),
+            (124, [0.850_651, 0.525_731, 0.0]),
+        ] {
+            assert_eq!(Icosphere.encode(Vec3::from(v)).0, code);
+            assert!(Icosphere.decode::<f32>(code.into()).distance_squared(v.into()) < 1e-11);
+        }
+    }
+
+    #[test]
+    fn axes_survive() {
+        for (axis, code) in [
+            ([0.0f32, 0.0, 1.0], 156),
+            ([0.0, 0.0, -1.0], 157),
+            ([1.0, 0.0, 0.0], 158),
+            ([-1.0, 0.0, 0.0], 159),
+            ([0.0, 1.0, 0.0], 160),
+            ([0.0, -1.0, 0.0], 161),
+        ] {
+            assert_eq!(Icosphere.encode(axis.into()).0, code);
+            assert_eq!(Icosphere.decode::<f32>(code.into()).to_array(), axis);
+        }
+    }
+
+    #[test]
+    fn codes_from_162_read_as_161() {
+        for (code, canonical) in [(162, 161), (255, 161), (161, 161), (0x19E, 158)] {
+            assert_eq!(Icosphere.mirror::<f32>(code.into(), [false; 3]).0, canonical);
+            let v = Icosphere.decode::<f32>(code.into());
+            assert_eq!(v, Icosphere.decode::<f32>(canonical.into()));
+        }
+    }
+
+    #[test]
+    fn every_vertex_has_its_code_and_its_mirror_images() {
+        for code in 0..162 {
+            let v = Icosphere.decode::<f32>(code.into());
+            assert_eq!(Icosphere.encode(v).0, code);
+            for axis in 0..3 {
+                let (mut flips, mut image) = ([false; 3], v);
+                flips[axis] = true;
+                image[axis] = -image[axis];
+                assert_eq!(Icosphere.mirror::<f32>(code.into(), flips), Icosphere.encode(image));
+            }
+        }
+    }
+}

@@ -241,3 +241,105 @@ impl Parallels for Adaptive {
 }
 
 kernels!(LatLong<Uniform>: Words; LatLong<Adaptive>: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 255 parallels of 255 points.
+    const UNIFORM: LatLong<Uniform> = LatLong::<Uniform>::new(16);
+    const LAST: i32 = 254 * 255;
+
+    fn adaptive(bits: u32) -> LatLong<Adaptive> {
+        LatLong::<Adaptive>::new(bits)
+    }
+
+    fn assert_near(v: Vec3<f32>, expected: [f32; 3]) {
+        assert!(v.distance_squared(expected.into()) < 1e-12, "{v:?}");
+    }
+
+    #[test]
+    fn points_are_numbered_along_parallels() {
+        // theta = 60 degrees: 254 / 3 = 84.7; phi = 90 degrees: 255 / 4 = 63.75.
+        let v = Vec3::new(0.0f32, 0.866_025, 0.5);
+        let code = 85 * 255 + 64;
+        assert_eq!([UNIFORM.encode(v).0, UNIFORM.encode_precise(v).0], [code; 2]);
+        // 85 * 180 / 254 = 60.23622 and 64 * 360 / 255 = 90.35294 degrees.
+        let decoded = UNIFORM.decode::<f32>(code.into());
+        assert_near(decoded, [-0.005_347_33, 0.868_063, 0.496_425_3]);
+        // A little less than a whole turn is point 0.
+        assert_eq!(UNIFORM.encode(Vec3::new(1.0f32, -0.001, 0.0)).0, 127 * 255);
+    }
+
+    #[test]
+    fn promised_axes_survive() {
+        let axes = [[0.0f32, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+        for (axis, code) in axes.into_iter().zip([0, LAST, 127 * 255]) {
+            assert_eq!(UNIFORM.encode(axis.into()).0, code);
+            assert_eq!(UNIFORM.encode_precise(axis.into()).0, code);
+            assert_eq!(UNIFORM.decode::<f32>(code.into()).to_array(), axis);
+        }
+        for (bits, axes) in [(16, &axes[..]), (24, &axes[..]), (32, &axes[..3])] {
+            for axis in axes {
+                let code = adaptive(bits).encode(Vec3::from(*axis));
+                assert_eq!(adaptive(bits).encode_precise(Vec3::from(*axis)), code);
+                assert_eq!(adaptive(bits).decode::<f32>(code).to_array(), *axis);
+            }
+        }
+    }
+
+    #[test]
+    fn a_pole_is_one_point() {
+        for (code, canonical) in [(1, 0), (254, 0), (255, 255), (LAST + 1, LAST), (0xFFFF, LAST)] {
+            assert_eq!(UNIFORM.mirror::<f32>(code.into(), [false; 3]).0, canonical);
+            let decoded = UNIFORM.decode::<f32>(code.into());
+            assert_eq!(decoded, UNIFORM.decode::<f32>(canonical.into()));
+        }
+        // 180 / 254 degrees.
+        assert_near(UNIFORM.decode::<f32>(255.into()), [0.012_368_11, 0.0, 0.999_923_5]);
+    }
+
+    #[test]
+    fn mirror_images_of_uniform_points_count_backwards() {
+        let code = 85 * 255 + 64;
+        for (flips, mirrored) in [
+            ([false, true, false], 85 * 255 + 191),
+            ([false, false, true], 169 * 255 + 64),
+            ([false, true, true], 169 * 255 + 191),
+        ] {
+            assert_eq!(UNIFORM.mirror::<f32>(code.into(), flips).0, mirrored);
+        }
+        // Half a turn from 0 is between 127 and 128.
+        let opposite = UNIFORM.mirror::<f32>((85 * 255).into(), [true, false, false]).0;
+        assert!([85 * 255 + 127, 85 * 255 + 128].contains(&opposite));
+    }
+
+    #[test]
+    fn adaptive_points_are_numbered_from_pole_to_pole() {
+        let formula = adaptive(16);
+        assert_eq!(formula.encode(Vec3::new(0.0f32, 0.0, -1.0)).0, 0xFFFF);
+        // The 227 parallels are 180 / 226 degrees apart.
+        assert_near(formula.decode::<f32>(1.into()), [0.013_900_39, 0.0, 0.999_903_4]);
+        // Half of the points are before the opposite of the equator's first.
+        assert_eq!(formula.encode(Vec3::new(-1.0f32, 0.0, 0.0)).0, 0x8000);
+        assert_eq!(formula.mirror::<f32>(0x8000.into(), [true, false, false]), {
+            formula.encode(Vec3::new(1.0f32, 0.0, 0.0))
+        });
+    }
+
+    #[test]
+    fn the_one_index_beyond_the_last_point_reads_as_the_south_pole() {
+        let formula = adaptive(32);
+        assert_eq!(formula.decode::<f32>((-1).into()).to_array(), [0.0, 0.0, -1.0]);
+        assert_eq!(formula.mirror::<f32>((-1).into(), [false; 3]).0, -2);
+    }
+
+    #[test]
+    fn the_nearest_code_of_a_decoded_vector_is_its_own() {
+        for code in [0, 1, 7, 1000, 0x7FFF, 0x8000, 0x8001, 50_000, 0xFFFE, 0xFFFF] {
+            let v = adaptive(16).decode::<f32>(code.into());
+            assert_eq!([adaptive(16).encode(v).0, adaptive(16).encode_precise(v).0], [code; 2]);
+            assert_eq!(adaptive(16).mirror::<f32>(code.into(), [false; 3]).0, code);
+        }
+    }
+}

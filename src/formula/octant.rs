@@ -120,3 +120,61 @@ impl Symmetric for Octant {
 }
 
 kernels!(Octant: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn canonical(code: i32) -> i32 {
+        Octant.mirror::<f32>(code.into(), [false; 3]).0
+    }
+
+    #[test]
+    fn the_fast_encoder_truncates() {
+        // (1, 2, 2) 126 / 5 = (25.2, 50.4, 50.4): 25 * 128 + 50.
+        assert_eq!(Octant.encode(Vec3::new(1.0f32, 2.0, 2.0)).0, 0x0CB2);
+        assert_eq!(Octant.encode(Vec3::new(-1.0f32, 2.0, -2.0)).0, 0xACB2);
+        let v = Vec3::new(25.25f32, 50.75, 50.0);
+        assert_eq!([Octant.encode(v).0, Octant.encode_precise(v).0], [0x0CB2, 0x0CB3]);
+    }
+
+    #[test]
+    fn from_64_on_the_triangle_is_folded() {
+        // (5, 2, 2) 126 / 9 = (70, 28, 28), stored as (127 - 70, 127 - 28) = (57, 99).
+        assert_eq!(Octant.encode(Vec3::new(5.0f32, 2.0, 2.0)).0, 57 * 128 + 99);
+        let v = Octant.decode::<f32>((57 * 128 + 99).into());
+        // (5, 2, 2) / sqrt(33).
+        assert!(v.distance_squared(Vec3::new(0.870_388, 0.348_155, 0.348_155)) < 1e-11, "{v:?}");
+    }
+
+    #[test]
+    fn axes_survive() {
+        // (126, 0) is stored as (1, 127).
+        for (axis, code) in [
+            ([1.0f32, 0.0, 0.0], 0x00FF),
+            ([-1.0, 0.0, 0.0], 0x80FF),
+            ([0.0, 1.0, 0.0], 0x007E),
+            ([0.0, -1.0, 0.0], 0x407E),
+            ([0.0, 0.0, 1.0], 0x0000),
+            ([0.0, 0.0, -1.0], 0x2000),
+        ] {
+            assert_eq!(Octant.encode(axis.into()).0, code);
+            assert_eq!(Octant.encode_precise(axis.into()).0, code);
+            assert_eq!(Octant.decode::<f32>(code.into()).to_array(), axis);
+        }
+    }
+
+    #[test]
+    fn a_zero_has_no_sign() {
+        assert_eq!([canonical(0xC000), canonical(0xE07E), canonical(0xE0FF)], [0, 0x407E, 0x80FF]);
+        assert_eq!(Octant.mirror::<f32>(0x00FF.into(), [true; 3]).0, 0x80FF);
+    }
+
+    #[test]
+    fn patterns_whose_sum_is_127_read_as_a_neighbour() {
+        // (10, 117) would be (117, 10), and reads as (116, 10), which is stored as (11, 117).
+        assert_eq!(canonical(10 * 128 + 117), 11 * 128 + 117);
+        // (63, 64) would be (64, 63), and reads as (63, 63).
+        assert_eq!(canonical(63 * 128 + 64), 63 * 128 + 63);
+    }
+}

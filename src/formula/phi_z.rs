@@ -102,3 +102,68 @@ impl Formula for PhiZ {
 }
 
 kernels!(PhiZ: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PHI_Z: PhiZ = PhiZ::new(16);
+
+    fn mirror(code: i32, flips: [bool; 3]) -> i32 {
+        PHI_Z.mirror::<f32>(code.into(), flips).0
+    }
+
+    #[test]
+    fn parameters_are_azimuth_and_height() {
+        // phi = 90 degrees: 127.5 (1 + 1/2) = 191.25; z = -0.2: 127.5 (1 - 0.2) = 102.
+        let v = Vec3::new(0.0f32, 0.979_795_9, -0.2);
+        assert_eq!([PHI_Z.encode(v).0, PHI_Z.encode_precise(v).0], [0x66BF; 2]);
+        // 180 (2 * 191 - 255) / 255 = 89.64706 degrees.
+        let decoded = PHI_Z.decode::<f32>(0x66BF.into());
+        let expected = Vec3::new(0.006_035_4, 0.979_777_3, -0.2);
+        assert!(decoded.distance_squared(expected) < 1e-12, "{decoded:?}");
+    }
+
+    #[test]
+    fn poles_survive_with_the_first_azimuth_above_zero() {
+        for (axis, code) in [([0.0f32, 0.0, 1.0], 0xFF80), ([0.0, 0.0, -1.0], 0x0080)] {
+            assert_eq!(PHI_Z.encode(axis.into()).0, code);
+            assert_eq!(PHI_Z.encode_precise(axis.into()).0, code);
+            assert_eq!(PHI_Z.decode::<f32>(code.into()).to_array(), axis);
+        }
+        assert_eq!([mirror(0xFF00, [false; 3]), mirror(0x00FF, [false; 3])], [0xFF80, 0x0080]);
+    }
+
+    #[test]
+    fn the_seam_has_the_greatest_azimuth() {
+        assert_eq!(mirror(0x6600, [false; 3]), 0x66FF);
+        // z = 0 is half way between 127 and 128.
+        assert_eq!(PHI_Z.encode(Vec3::new(-1.0f32, 0.0, 0.0)).0, 0x80FF);
+        assert_eq!(PHI_Z.encode(Vec3::new(-1.0f32, -0.001, 0.0)).0, 0x80FF);
+    }
+
+    #[test]
+    fn mirrored_indices_count_from_the_other_end() {
+        assert_eq!(mirror(0x66BF, [false, true, false]), 0x6640);
+        assert_eq!(mirror(0x66BF, [false, false, true]), 0x99BF);
+        // With x negated 191 would be 191.5.
+        assert!([0x66BF, 0x66C0].contains(&mirror(0x66BF, [true, false, false])));
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = PhiZ::new(8);
+        for v in [
+            [0.1f32, 0.2, 0.9],
+            [-0.7, 0.7, 0.1],
+            [0.3, -0.2, -0.4],
+            [0.9, -0.01, -0.05],
+            [-0.2, -0.9, -0.8],
+        ] {
+            let v = Vec3::from(v).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..256).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

@@ -101,3 +101,83 @@ impl Formula for Spherical {
 }
 
 kernels!(Spherical: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPHERICAL: Spherical = Spherical::new(16);
+
+    fn mirror(code: i32, flips: [bool; 3]) -> i32 {
+        SPHERICAL.mirror::<f32>(code.into(), flips).0
+    }
+
+    #[test]
+    fn parameters_are_polar_angle_and_azimuth() {
+        // theta = 60 degrees: 127 (2/3 - 1) = -42.3; phi = 30 degrees: 127 / 6 = 21.2.
+        let v = Vec3::new(0.75f32, 0.433_013, 0.5);
+        assert_eq!([SPHERICAL.encode(v).0, SPHERICAL.encode_precise(v).0], [0x15D6; 2]);
+        // 90 - 90 * 42 / 127 = 60.2362 and 180 * 21 / 127 = 29.7638 degrees.
+        let decoded = SPHERICAL.decode::<f32>(0x15D6.into());
+        assert!(decoded.distance_squared(Vec3::new(0.753_562, 0.430_937, 0.496_425)) < 1e-10);
+    }
+
+    #[test]
+    fn promised_axes_survive() {
+        for (axis, code) in [
+            ([0.0f32, 0.0, 1.0], 0x0081),
+            ([0.0, 0.0, -1.0], 0x007F),
+            ([1.0, 0.0, 0.0], 0x0000),
+            ([-1.0, 0.0, 0.0], 0x7F00),
+        ] {
+            assert_eq!(SPHERICAL.encode(axis.into()).0, code);
+            assert_eq!(SPHERICAL.encode_precise(axis.into()).0, code);
+            assert_eq!(SPHERICAL.decode::<f32>(code.into()).to_array(), axis);
+        }
+    }
+
+    #[test]
+    fn the_azimuth_of_a_pole_is_zero() {
+        assert_eq!(mirror(0x2A7F, [false; 3]), 0x007F);
+        assert_eq!(mirror(0x8181, [false; 3]), 0x0081);
+    }
+
+    #[test]
+    fn the_seam_has_the_greatest_azimuth() {
+        assert_eq!(mirror(0x8105, [false; 3]), 0x7F05);
+        // -179.94 degrees are rounded to -127 steps.
+        assert_eq!(SPHERICAL.encode(Vec3::new(-1.0f32, -0.001, 0.0)).0, 0x7F00);
+    }
+
+    #[test]
+    fn the_pattern_out_of_range_reads_as_its_neighbour() {
+        assert_eq!(mirror(0x0080, [false; 3]), 0x0081);
+        assert_eq!(mirror(0x8000, [false; 3]), 0x7F00);
+    }
+
+    #[test]
+    fn mirror_images_have_the_supplement_or_the_opposite() {
+        // 127 - 21 = 106.
+        assert_eq!(mirror(0x15D6, [true, false, false]), 0x6AD6);
+        assert_eq!(mirror(0xEBD6, [true, false, false]), 0x96D6);
+        assert_eq!(mirror(0x15D6, [false, true, false]), 0xEBD6);
+        assert_eq!(mirror(0x15D6, [false, false, true]), 0x152A);
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = Spherical::new(8);
+        for v in [
+            [0.1f32, 0.2, 0.9],
+            [-0.7, 0.7, 0.1],
+            [0.3, -0.2, -0.4],
+            [0.9, -0.01, -0.05],
+            [-0.2, -0.9, -0.8],
+        ] {
+            let v = Vec3::from(v).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..256).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

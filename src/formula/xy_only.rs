@@ -367,3 +367,113 @@ impl Symmetric for XyOnly<XyUnorm> {
 }
 
 kernels!(XyOnly<XyUnorm>: Words; XyOnly<XyHalf>: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNORM: XyOnly<XyUnorm> = XyOnly::<XyUnorm>::new(16);
+    const HALF: XyOnly<XyHalf> = XyOnly::<XyHalf>::new();
+
+    fn canonical<G: XyGrid>(formula: XyOnly<G>, code: u32) -> u32 {
+        formula.mirror::<f32>((code as i32).into(), [false; 3]).0 as u32
+    }
+
+    fn assert_near(v: Vec3<f32>, expected: [f32; 3]) {
+        assert!(v.distance_squared(expected.into()) < 1e-11, "{v:?}");
+    }
+
+    #[test]
+    fn x_and_y_are_stored_as_they_are() {
+        // 127.5 (1 + 0.6) = 204 and 127.5 (1 + 0.48) = 188.7.
+        let v = Vec3::new(0.6f32, 0.48, 0.64);
+        assert_eq!(UNORM.encode(v * 5.0).0, 0xBDCC);
+        // 153/255, 123/255, and sqrt(1 - 0.36 - 0.232664).
+        assert_near(UNORM.decode::<f32>(0xBDCC.into()), [0.6, 0.482_353, 0.638_229]);
+        // 0.5 (1 + 205/1024) and 0.25 (1 + 942/1024).
+        assert_eq!(HALF.encode(v * 5.0).0, 0x37AE_38CD);
+        assert_near(HALF.decode::<f32>(0x37AE_38CD.into()), [0.600_097_7, 0.479_980_5, 0.639_923]);
+    }
+
+    #[test]
+    fn promised_axes_survive() {
+        for (axis, code) in [
+            ([1.0f32, 0.0, 0.0], 0x0000_3C00u32),
+            ([-1.0, 0.0, 0.0], 0x0000_BC00),
+            ([0.0, 1.0, 0.0], 0x3C00_0000),
+            ([0.0, -1.0, 0.0], 0xBC00_0000),
+            ([0.0, 0.0, 1.0], 0),
+        ] {
+            assert_eq!(HALF.encode(axis.into()).0 as u32, code);
+            assert_eq!(HALF.encode_precise(axis.into()).0 as u32, code);
+            assert_eq!(HALF.decode::<f32>((code as i32).into()).to_array(), axis);
+        }
+    }
+
+    #[test]
+    fn beyond_the_rim_the_smaller_component_is_kept() {
+        // x = 1, y = 101/255: x is sqrt(1 - y^2) = 234.145/255.
+        assert_near(UNORM.decode::<f32>(0xB2FF.into()), [0.918_217, 0.396_078, 0.0]);
+        assert_near(UNORM.decode::<f32>(0xFFB2.into()), [0.396_078, 0.918_217, 0.0]);
+        // x = y = 1: y is cut to 181/255, the first from sqrt(1/2), and x is the larger.
+        assert_near(UNORM.decode::<f32>(0xFFFF.into()), [0.704_399, 0.709_804, 0.0]);
+        // In halves it is cut to 0x39A9 = 0.707520.
+        assert_near(HALF.decode::<f32>(0x3C00_3C00.into()), [0.706_694, 0.707_520, 0.0]);
+    }
+
+    #[test]
+    fn of_codes_beyond_the_rim_the_first_is_canonical() {
+        // From 234.145 on the first x is 235/255, index 245. (181, 179) is inside, so (181, 181), index 218,
+        // where x is the larger; where y is, it is (181, 183). From 249.85 on the first is 251.
+        for (code, first) in [
+            (0xB2FF, 0xB2F5),
+            (0xFFB2, 0xF5B2),
+            (0xB200, 0xB20A),
+            (0xFFFF, 0xDADA),
+            (0xFFDB, 0xDBDA),
+            (0x99FF, 0x99FD),
+            (0xBDCC, 0xBDCC),
+        ] {
+            assert_eq!(canonical(UNORM, code), first, "{code:x}");
+            let v = UNORM.decode::<f32>((code as i32).into());
+            assert_eq!(v, UNORM.decode::<f32>((first as i32).into()));
+        }
+    }
+
+    #[test]
+    fn halves_above_one_read_as_one() {
+        // 2, infinity, NaN, and their opposites; and there is one zero.
+        for (code, one) in
+            [(0x4000, 0x3C00), (0x7C00, 0x3C00), (0xFE00, 0xBC00), (0x7E00_0000, 0x3C00_0000)]
+        {
+            assert_eq!(canonical(HALF, code), one, "{code:x}");
+        }
+        assert_eq!(canonical(HALF, 0x8000_8000), 0);
+        assert_eq!(HALF.decode::<f32>(0xFE00.into()).to_array(), [-1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn mirror_images_have_opposite_parameters() {
+        // 255 - 0xCC = 0x33.
+        assert_eq!(UNORM.mirror::<f32>(0xBDCC.into(), [true, false, false]).0, 0xBD33);
+        assert_eq!(UNORM.mirror::<f32>(0xBDCC.into(), [false, true, false]).0, 0x42CC);
+        assert_eq!(HALF.mirror::<f32>(0x37AE_38CD.into(), [true, false, false]).0, 0x37AE_B8CD);
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = XyOnly::<XyUnorm>::new(8);
+        for v in [
+            [0.8f32, 0.55, 0.24],
+            [0.03, 0.998, 0.05],
+            [-0.7, 0.7, 0.1],
+            [0.3, -0.2, 0.9],
+            [-0.99, -0.1, 0.0],
+        ] {
+            let v = Vec3::from(v).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..256).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

@@ -61,3 +61,83 @@ impl FrameFormula for OctAngle {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::{I32x1, Vec3};
+
+    const BITS32: OctAngle = OctAngle::new(22, 9);
+    const BITS64: OctAngle = OctAngle::new(32, 31);
+
+    fn encode(formula: OctAngle, normal: [f32; 3], tangent: [f32; 3], handedness: f32) -> [u32; 2] {
+        let frame = || Prepared::new(normal.into(), tangent.into(), handedness);
+        let code = formula.encode::<f32, false>(frame());
+        assert_eq!(formula.encode::<f32, true>(frame()), code);
+        code.map(|word| word.0 as u32)
+    }
+
+    #[test]
+    fn angles_are_counted_around_the_normal() {
+        let z = [0.0, 0.0, 1.0];
+        // The basis of +Z is +X and +Y, and 512 steps are a turn.
+        for (tangent, angle) in [
+            ([1.0, 0.0, 0.0], 0),
+            ([1.0, 1.0, 0.0], 64),
+            ([0.0, 1.0, 5.0], 128),
+            ([-1.0, 0.0, 0.0], 256),
+            ([0.0, -1.0, 0.0], 384),
+        ] {
+            assert_eq!(encode(BITS32, z, tangent, 1.0), [angle << 22, 0]);
+            assert_eq!(encode(BITS64, z, tangent, 1.0), [0, angle << 22]);
+        }
+    }
+
+    #[test]
+    fn the_basis_turns_with_the_normal() {
+        // Of +X it is -Z and +Y: s = 1, a = -1, so b1 = (1 - 1, 0, -1) and b2 = (0, 1, 0).
+        for (tangent, angle) in
+            [([0.0, 0.0, -1.0], 0), ([0.0, 1.0, 0.0], 128), ([0.0, 0.0, 1.0], 256)]
+        {
+            assert_eq!(encode(BITS32, [1.0, 0.0, 0.0], tangent, 1.0), [1023 | angle << 22, 0]);
+        }
+        // Of -Z it is +X and -Y.
+        let code = encode(BITS64, [0.0, 0.0, -1.0], [0.0, -1.0, 0.0], 1.0);
+        assert_eq!(code, [0x7FFF_7FFF, 1 << 29]);
+    }
+
+    #[test]
+    fn the_highest_bit_is_the_handedness() {
+        let [z, x] = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]];
+        assert_eq!(encode(BITS32, z, x, -0.5), [1 << 31, 0]);
+        assert_eq!(encode(BITS64, z, x, -0.5), [0, 1 << 31]);
+        assert_eq!(encode(BITS64, z, x, f32::NAN), [0, 0]);
+        assert_eq!(BITS32.decode::<f32>([I32x1(i32::MIN), I32x1(0)]).handedness, -1.0);
+        assert_eq!(BITS64.decode::<f32>([I32x1(i32::MIN), I32x1(0)]).handedness, 1.0);
+    }
+
+    #[test]
+    fn without_a_tangent_the_angle_is_zero() {
+        for tangent in [[0.0; 3], [0.0, 0.0, -2.0], [f32::NAN, 1.0, 0.0]] {
+            assert_eq!(encode(BITS32, [0.0, 0.0, 3.0], tangent, 1.0), [0, 0]);
+        }
+    }
+
+    #[test]
+    fn quarters_around_axes_decode_exactly() {
+        let decoded = BITS32.decode::<f32>([I32x1(1023 | 128 << 22), I32x1(0)]);
+        assert_eq!(decoded.normal, Vec3::new(1.0, 0.0, 0.0));
+        assert_eq!(decoded.tangent, Vec3::new(0.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn only_the_normal_has_several_patterns() {
+        // -1024 reads as -1023, and (1023, -5) is (1023, 5).
+        let canonical =
+            |code: u32| BITS32.canonical::<f32>([I32x1(code as i32), I32x1(0)])[0].0 as u32;
+        assert_eq!(canonical(0xABC0_0000 | 1024), 0xABC0_0000 | 1025);
+        assert_eq!(canonical(0xABC0_0000 | (2048 - 5) << 11 | 1023), 0xABC0_0000 | 5 << 11 | 1023);
+        let long = BITS64.canonical::<f32>([I32x1(0x8000), I32x1(-77)]);
+        assert_eq!(long, [I32x1(0x8001), I32x1(-77)]);
+    }
+}

@@ -196,3 +196,83 @@ impl FrameFormula for QTangent {
         map2!([0, 1], |i: usize| V::Int::select(unit, kept[i], again[i]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+
+    /// x, y, z and w.
+    fn words([x, y, z, w]: [i32; 4]) -> [I32x1; 2] {
+        [I32x1(x & 0xFFFF | y << 16), I32x1(z & 0xFFFF | w << 16)]
+    }
+
+    fn frame(normal: [f32; 3], tangent: [f32; 3], handedness: f32) -> Prepared<f32> {
+        Prepared::new(normal.into(), tangent.into(), handedness)
+    }
+
+    #[test]
+    fn rotations_by_thirds_and_quarters_are_known() {
+        // 32767 / 2 = 16383.5, and 32767 / sqrt(2) = 23169.8.
+        for (normal, tangent, q) in [
+            ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0, 0, 0, 32_767]),
+            ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [16_384; 4]),
+            ([0.0, 0.0, 2.0], [0.0, 1.0, 0.3], [0, 0, 23_170, 23_170]),
+            ([0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [23_170, 0, 0, 23_170]),
+            // Half turns have w = 0, which is stored as 1.
+            ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [32_767, 0, 0, 1]),
+            ([0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0, 32_767, 0, 1]),
+            ([0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0, 0, 32_767, 1]),
+        ] {
+            let code = QTangent.encode::<f32, false>(frame(normal, tangent, 1.0));
+            assert_eq!(code, words(q), "{normal:?} {tangent:?}");
+            let code = QTangent.encode::<f32, false>(frame(normal, tangent, -1.0));
+            assert_eq!(code, words(q.map(|c| -c)));
+        }
+    }
+
+    #[test]
+    fn decoding_turns_x_and_z() {
+        for (q, normal, tangent, handedness) in [
+            ([0, 0, 0, 32_767], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], 1.0),
+            ([100; 4], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 1.0),
+            ([-100; 4], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], -1.0),
+            ([7, 0, 0, 7], [0.0, -1.0, 0.0], [1.0, 0.0, 0.0], 1.0),
+        ] {
+            let decoded = QTangent.decode::<f32>(words(q));
+            for (v, expected) in [(decoded.normal, normal), (decoded.tangent, tangent)] {
+                assert!(v.distance_squared(expected.into()) < 1e-13, "{v:?}");
+                assert!(v.to_array().iter().all(|c| c.to_bits() != (-0.0f32).to_bits()));
+            }
+            assert_eq!(decoded.handedness, handedness);
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_range_reads_as_its_neighbour() {
+        let unpack = |q| QTangent::unpack::<f32>(words(q)).map(|c| c.0);
+        assert_eq!(unpack([-32_768, 0, 5, -32_768]), [-32_767, 0, 5, -32_767]);
+        assert_eq!(unpack([3, -4, 5, 0]), [3, -4, 5, 1]);
+    }
+
+    #[test]
+    fn only_codes_of_about_unit_length_are_canonical() {
+        for (there, own) in [
+            // 32767 (0.6, 0.8) = (19660.2, 26213.6); 4 * 19660 - 3 * 26213 = 1 is the least.
+            ([0, -300, 0, -400], [0, -19_660, 0, -26_213]),
+            ([32_767, 0, 0, 0], [32_767, 0, 0, 1]),
+            ([0, 0, 0, -1], [0, 0, 0, -32_767]),
+            ([16_383; 4], [16_383; 4]),
+            ([-16_384; 4], [-16_384; 4]),
+        ] {
+            assert_eq!(QTangent.canonical::<f32>(words(there)), words(own), "{there:?}");
+        }
+    }
+
+    #[test]
+    fn the_greatest_of_equal_rows_is_the_first() {
+        let row = |square: f32, c: f32| Row { square, row: [c; 4] };
+        assert_eq!(row(1.0, 5.0).greater(row(1.0, 6.0)).row, [5.0; 4]);
+        assert_eq!(row(1.0, 5.0).greater(row(2.0, 6.0)).row, [6.0; 4]);
+    }
+}

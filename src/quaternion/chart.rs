@@ -188,3 +188,84 @@ impl Layout for Bits20 {
         Point { fields: Vec3::new(low, j, high.shr_logical(8)), left_out: high.shr_logical(30) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+
+    fn point(fields: [i32; 3], left_out: i32) -> Point<f32> {
+        Point { fields: Vec3::from(fields.map(I32x1)), left_out: I32x1(left_out) }
+    }
+
+    fn parts(Point { fields, left_out }: Point<f32>) -> ([i32; 3], i32) {
+        (fields.to_array().map(|f| f.0), left_out.0)
+    }
+
+    #[test]
+    fn fields_are_where_the_layouts_say() {
+        assert_eq!(Bits10::pack::<f32>(point([1, -1, 2], 3)).0 as u32, 0xC02F_FC01);
+        // Of each word 16 bits are stored.
+        let words = |p| Bits15::pack::<f32>(p).map(|w| w.0 & 0xFFFF);
+        assert_eq!(words(point([1, -1, 2], 1)), [0x8001, 0x7FFF, 0x0002]);
+        assert_eq!(words(point([1, -1, 2], 2)), [0x0001, 0xFFFF, 0x0002]);
+        let halves = Bits20::pack::<f32>(point([1, -1, 2], 3)).map(|w| w.0 as u32);
+        assert_eq!(halves, [0xFFF0_0001, 0xC000_02FF]);
+    }
+
+    #[test]
+    fn fields_come_back_without_spare_bits() {
+        let fields = [1, -1, 2];
+        assert_eq!(parts(Bits10::unpack::<f32>(I32x1(0xC02F_FC01_u32 as i32))), (fields, 3));
+        assert_eq!(parts(Bits15::unpack::<f32>([0x0001, 0xFFFF, 0x8002].map(I32x1))), (fields, 2));
+        let halves = [0xFFF0_0001_u32, 0xF000_02FF].map(|w| I32x1(w as i32));
+        assert_eq!(parts(Bits20::unpack::<f32>(halves)), (fields, 3));
+    }
+
+    #[test]
+    fn the_pattern_out_of_range_reads_as_its_neighbour() {
+        assert_eq!(parts(Bits10::unpack::<f32>(I32x1(0x200))), ([-511, 0, 0], 0));
+        assert_eq!(parts(Bits15::unpack::<f32>([0, 0x4000, 0].map(I32x1))), ([0, -16_383, 0], 0));
+        assert_eq!(
+            parts(Bits20::unpack::<f32>([0, 0x0800_0000].map(I32x1))),
+            ([0, 0, -524_287], 0)
+        );
+    }
+
+    #[test]
+    fn components_keep_their_order() {
+        for index in 0..4 {
+            let chart = LeftOut::<f32>::new(I32x1(index));
+            let others = Vec3::new(1.0, 2.0, 3.0);
+            let inserted = chart.insert(others, 9.0);
+            let mut expected = [1.0, 2.0, 3.0, 9.0];
+            expected[index as usize..].rotate_right(1);
+            assert_eq!(inserted, expected);
+            assert_eq!(chart.remove(inserted), (others, 9.0));
+        }
+    }
+
+    #[test]
+    fn of_equals_the_first_is_the_largest() {
+        for (q, index) in [
+            ([1.0, -1.0, 1.0, 1.0], 0),
+            ([0.5, -1.0, 1.0, 1.0], 1),
+            ([0.5, 0.0, -1.0, 1.0], 2),
+            ([0.5, 0.0, 0.7, -1.0], 3),
+        ] {
+            assert_eq!(largest(q).0, index);
+        }
+        // Made positive by the opposite of all.
+        let there = in_chart_of_largest::<f32>([3, -7, 7, 1].map(I32x1));
+        assert_eq!(parts(there), ([-3, -7, -1], 1));
+    }
+
+    #[test]
+    fn the_nearer_integer_comes_first() {
+        for (x, around) in
+            [(2.3, [2, 3]), (2.7, [3, 2]), (-2.3, [-2, -3]), (6.9, [7, 6]), (7.2, [7, 7])]
+        {
+            assert_eq!(floor_and_ceil_clamped(x, 7).map(|i| i.0), around);
+        }
+    }
+}

@@ -219,3 +219,112 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
 pub(super) fn length_squared<V: Simd>([x, y, z, w]: [V; 4]) -> V {
     x * x + y * y + z * z + w * w
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::chart::{Bits10, Bits15, Bits20};
+    use super::*;
+    use crate::simd::I32x1;
+
+    const BITS10: SmallestThree<Bits10> = SmallestThree::new();
+    const BITS20: SmallestThree<Bits20> = SmallestThree::new();
+
+    /// Fields of 10 bits, and the component left out.
+    const fn code([i, j, l]: [i32; 3], left_out: i32) -> i32 {
+        (i & 1023) | (j & 1023) << 10 | (l & 1023) << 20 | left_out << 30
+    }
+
+    fn canonical(code: i32) -> i32 {
+        BITS10.canonical::<f32>(I32x1(code)).0
+    }
+
+    #[test]
+    fn the_largest_component_is_left_out() {
+        // sqrt(2) 511 = 722.66, and 722.66 * 0.6 = 433.6.
+        for (q, expected) in [
+            ([0.0f32, 0.6, 0.0, 0.8], code([0, 434, 0], 3)),
+            ([0.0, -0.6, 0.0, -0.8], code([0, 434, 0], 3)),
+            ([0.0, 1.2, 0.0, -1.6], code([0, -434, 0], 3)),
+            ([0.8, 0.6, 0.0, 0.0], code([434, 0, 0], 0)),
+            ([0.0, 0.0, -0.8, 0.6], code([0, 0, -434], 2)),
+        ] {
+            assert_eq!([BITS10.encode(q).0, BITS10.encode_precise(q).0], [expected; 2], "{q:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_left_out_follows_from_the_others() {
+        // 434 / 722.66 = 0.600557, and sqrt(1 - 0.600557^2) = 0.799582.
+        let q = BITS10.decode::<f32>(I32x1(code([0, -434, 0], 2)));
+        let off = [q[0], q[1] + 0.600_557, q[2] - 0.799_582, q[3]];
+        assert!(length_squared(off) < 1e-11, "{q:?}");
+    }
+
+    #[test]
+    fn axes_survive() {
+        fn check<Y: Layout>() {
+            for axis in 0..4 {
+                let mut q = [0.0f32; 4];
+                q[axis] = 1.0;
+                let formula = SmallestThree::<Y>::new();
+                assert_eq!(formula.decode::<f32>(formula.encode(q)), q);
+                assert_eq!(formula.decode::<f32>(formula.encode_precise(q.map(|c| -c))), q);
+            }
+        }
+        check::<Bits10>();
+        check::<Bits15>();
+        check::<Bits20>();
+    }
+
+    #[test]
+    fn fields_that_are_too_long_read_as_the_identity() {
+        // 3 * 511^2 and 512^2 + 511^2 + 1 are more than 2 * 511^2, and 2 * 511^2 is not.
+        for fields in [[511, 511, 511], [511, -511, 1]] {
+            assert_eq!(BITS10.decode::<f32>(I32x1(code(fields, 1))), [0.0, 0.0, 0.0, 1.0]);
+            assert_eq!(canonical(code(fields, 1)), code([0; 3], 3));
+        }
+        assert!(BITS10.decode::<f32>(I32x1(code([511, 511, 0], 3)))[0] > 0.7);
+        // -512 is -511.
+        assert_eq!(canonical(code([-512, 0, 300], 3)), code([-511, 0, 300], 3));
+    }
+
+    #[test]
+    fn where_the_rest_is_a_square_the_first_of_the_largest_counts() {
+        // 2 * 511^2 - 511^2 = 511^2: (511, 0, 0, 511), whose x is left out, and (-511, 0, 0, 511), negated.
+        assert_eq!(canonical(code([511, 0, 0], 3)), code([0, 0, 511], 0));
+        assert_eq!(canonical(code([-511, 0, 0], 3)), code([0, 0, -511], 0));
+        // 2 * 511^2 - 511^2 - 511^2 = 0: (511, 511, 0, 0).
+        assert_eq!(canonical(code([511, 511, 0], 3)), code([511, 0, 0], 0));
+        // 2 * 511^2 - 434^2 = 333886 is between 577^2 and 578^2.
+        assert_eq!(canonical(code([0, 434, 0], 0)), code([0, 434, 0], 0));
+    }
+
+    #[test]
+    fn the_rest_is_exact_where_it_is_longer_than_a_word() {
+        let [m, i, j, l] = [524_287i64, 524_286, -3077, 70_055];
+        let fields = Vec3::from([i, j, l].map(|f| I32x1(f as i32)));
+        let (n, low) = SmallestThree::<Bits20>::SCALE.left_out_squared::<f32>(fields);
+        let exact = 2 * m * m - i * i - j * j - l * l;
+        assert_eq!((n, low.0), (exact as f32, exact as i32));
+        // The same rotation in two charts: (M, 0, 0, M).
+        let there = [I32x1(524_287), I32x1(3 << 30)];
+        let own = [I32x1(0), I32x1(524_287 << 8)];
+        assert_eq!(BITS20.canonical::<f32>(there), own);
+    }
+
+    #[test]
+    fn the_nearest_code_may_be_in_another_chart() {
+        // In steps (361.2, 361.4, 361.3, 361.4), about sqrt(2) 511 / 2 each.
+        let q = [0.5f32, 0.5, 0.5, 0.5];
+        let square = |code: I32x1| {
+            let d = BITS10.decode::<f32>(code);
+            length_squared([d[0] - q[0], d[1] - q[1], d[2] - q[2], d[3] - q[3]])
+        };
+        let least = (0..4).flat_map(|chart| {
+            (0..8)
+                .map(move |up| code([361 + (up & 1), 361 + (up >> 1 & 1), 361 + (up >> 2)], chart))
+        });
+        let least = least.map(|code| square(I32x1(code))).fold(4.0, f32::min);
+        assert!(square(BITS10.encode_precise(q)) <= least + 1e-12);
+    }
+}

@@ -114,3 +114,75 @@ impl<Y: Layout> Rotation for TanThree<Y> {
         Self::pack::<V>(Y::unpack::<V>(code))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::chart::Bits10;
+    use super::*;
+    use crate::simd::I32x1;
+
+    const TAN: TanThree<Bits10> = TanThree::new();
+
+    /// Fields of 10 bits, and the component left out.
+    const fn code([i, j, l]: [i32; 3], left_out: i32) -> i32 {
+        (i & 1023) | (j & 1023) << 10 | (l & 1023) << 20 | left_out << 30
+    }
+
+    #[test]
+    fn fields_are_even_steps_of_the_angle() {
+        // atan(1/2) 4 / pi = 0.590334, times 511 is 301.7; atan(1/4) 4 / pi = 0.311917 gives 159.4.
+        for (q, expected) in [
+            ([0.0f32, 0.5, 0.0, 1.0], code([0, 302, 0], 3)),
+            ([0.0, 1.0, 0.5, -2.0], code([0, -302, -159], 3)),
+            ([-4.0, 1.0, 0.0, 2.0], code([-159, 0, -302], 0)),
+        ] {
+            assert_eq!([TAN.encode(q).0, TAN.encode_precise(q).0], [expected; 2], "{q:?}");
+        }
+    }
+
+    #[test]
+    fn decoding_takes_tangents() {
+        // tan(45 degrees * 302 / 511) = 0.500652, over the length 1.118326.
+        let q = TAN.decode::<f32>(I32x1(code([0, 302, 0], 3)));
+        let off = [q[0], q[1] - 0.447_680, q[2], q[3] - 0.894_194];
+        assert!(length_squared(off) < 1e-11, "{q:?}");
+    }
+
+    #[test]
+    fn rotations_of_zeros_and_one_magnitude_survive() {
+        let half = core::f32::consts::FRAC_1_SQRT_2;
+        for (q, expected) in [
+            ([1.0f32, 0.0, 0.0, 0.0], code([0, 0, 0], 0)),
+            ([0.0, 0.0, 0.0, 1.0], code([0, 0, 0], 3)),
+            ([0.5, -0.5, 0.5, 0.5], code([-511, 511, 511], 0)),
+            ([0.0, half, 0.0, -half], code([0, 0, -511], 1)),
+        ] {
+            assert_eq!([TAN.encode(q).0, TAN.encode_precise(q).0], [expected; 2], "{q:?}");
+            let decoded = TAN.decode::<f32>(I32x1(expected));
+            let off = [decoded[0] - q[0], decoded[1] - q[1], decoded[2] - q[2], decoded[3] - q[3]];
+            assert!(length_squared(off) < 1e-13);
+            assert!(decoded.iter().zip(q).all(|(d, c)| (*d == 0.0) == (c == 0.0)));
+        }
+    }
+
+    #[test]
+    fn where_charts_touch_the_first_counts() {
+        for (there, own) in [
+            // (511, 511, 0, 0), (-511, 0, 0, 511), and -512 that reads as -511.
+            (code([511, 0, 0], 1), code([511, 0, 0], 0)),
+            (code([-511, 0, 0], 3), code([0, 0, -511], 0)),
+            (code([-512, 0, 0], 3), code([0, 0, -511], 0)),
+            (code([510, 0, 0], 3), code([510, 0, 0], 3)),
+        ] {
+            assert_eq!(TAN.canonical::<f32>(I32x1(there)).0, own);
+        }
+    }
+
+    #[test]
+    fn the_nearest_code_of_a_decoded_rotation_is_its_own() {
+        for own in [code([302, -17, 5], 3), code([-510, 509, 1], 0), code([7, 0, -511], 2)] {
+            let own = TAN.canonical::<f32>(I32x1(own));
+            assert_eq!(TAN.encode_precise(TAN.decode::<f32>(own)), own);
+        }
+    }
+}

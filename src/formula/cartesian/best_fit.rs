@@ -59,3 +59,46 @@ impl Formula for BestFit {
         Self::UNORM8.mirror::<V>(code, flips)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn off(code: i32, v: [f32; 3]) -> f32 {
+        BestFit.decode::<f32>(code.into()).distance_squared(Vec3::from(v).normalize())
+    }
+
+    #[test]
+    fn bits_are_those_of_unorm() {
+        assert_eq!(
+            BestFit.decode::<f32>(0xBD_D1CC.into()),
+            BestFit::UNORM8.decode(0xBD_D1CC.into())
+        );
+        assert_eq!(BestFit.mirror::<f32>(0x80_8080.into(), [false; 3]).0, 0xC9_C9C9);
+    }
+
+    #[test]
+    fn the_table_gives_the_best_length() {
+        // The corner is exact. Nearest to the pole is (1, 1, 255), as there is no zero.
+        assert_eq!(BestFit.encode(Vec3::new(1.0f32, 1.0, 1.0)).0, 0xC9_C9C9);
+        assert_eq!(BestFit.encode(Vec3::new(0.0f32, 0.0, 1.0)).0, 0xFF_8080);
+        assert_eq!(BestFit.encode(Vec3::new(0.0f32, 0.0, -7.0)).0, 0x00_8080);
+    }
+
+    #[test]
+    fn a_table_is_nearer_than_rounding_and_a_search_nearer_still() {
+        let mut sums = [0.0; 3];
+        for v in [[0.6f32, 0.64, 0.48], [0.1, 0.2, 0.97], [-0.9, 0.3, 0.2], [0.3, -0.5, -0.8]] {
+            let codes = [
+                BestFit.encode_precise::<f32>(v.into()),
+                BestFit.encode(v.into()),
+                BestFit::UNORM8.encode(v.into()),
+            ];
+            for (sum, code) in sums.iter_mut().zip(codes) {
+                *sum += off(code.0, v);
+            }
+            assert!(off(codes[0].0, v) <= off(codes[1].0, v));
+        }
+        assert!(sums[0] <= sums[1] && sums[1] * 2.0 < sums[2], "{sums:?}");
+    }
+}

@@ -36,3 +36,26 @@ impl Formula for Floats {
         map3!([0, 1, 2], |i: usize| code[i] ^ sign_bit(flips[i]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+
+    #[test]
+    fn bits_come_back() {
+        let bits = [0x7FC0_1234, i32::MIN, 0x4049_0FDB];
+        let v = Floats.decode::<f32>(bits.map(I32x1));
+        assert_eq!(v.z, core::f32::consts::PI);
+        assert_eq!(Floats.encode(Floats.prepare(v)), bits.map(I32x1));
+        assert_eq!(Floats.encode_precise(v), bits.map(I32x1));
+    }
+
+    #[test]
+    fn mirror_images_change_sign_bits() {
+        let code = [1, 2, i32::MIN].map(I32x1);
+        assert_eq!(Floats.mirror::<f32>(code, [false; 3]), code);
+        let mirrored = Floats.mirror::<f32>(code, [true, false, false]);
+        assert_eq!(mirrored, [i32::MIN | 1, 2, i32::MIN].map(I32x1));
+    }
+}

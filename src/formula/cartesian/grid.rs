@@ -415,3 +415,84 @@ fn gcd<V: Simd>(numbers: Vec3<V>) -> V {
         (a, b, c) = (by, rest(a, by, per), rest(most, by, per));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+
+    fn representative(grid: impl Grid, point: [i32; 3]) -> [i32; 3] {
+        grid.representative::<f32>(point.map(I32x1).into()).to_array().map(|i| i.0)
+    }
+
+    #[test]
+    fn the_common_divisor_is_that_of_all_three() {
+        for (numbers, divisor) in [
+            ([12, 18, 30], 6),
+            ([0, 0, 5], 5),
+            ([7, 0, 0], 7),
+            ([0, 21, 14], 7),
+            ([65_535, 65_534, 0], 1),
+            ([32_767, 32_767, 32_767], 32_767),
+            ([46_368, 28_657, 0], 1),
+            ([65_536, 49_152, 16_384], 16_384),
+        ] {
+            assert_eq!(gcd(Vec3::from(numbers.map(|n| n as f32))), divisor as f32);
+        }
+    }
+
+    #[test]
+    fn a_field_has_an_index_or_a_signed_number() {
+        let point = [-3, 5, -127].map(I32x1);
+        let snorm = Steps::snorm([8; 3]);
+        assert_eq!(snorm.pack::<f32>(point.into()).0, 0x81_05FD);
+        assert_eq!(snorm.unpack::<f32>(0x80_05FD.into()).to_array(), point);
+        // (i + 255) / 2.
+        let unorm = Steps::unorm(8);
+        assert_eq!(unorm.pack::<f32>(point.into()).0, 0x40_827E);
+        assert_eq!(unorm.unpack::<f32>(0x40_827E.into()).to_array(), point);
+    }
+
+    #[test]
+    fn representatives_are_as_long_as_one() {
+        // (3, 4, 0): 127 / 5 = 25.4 times, and so from (6, 8, 0) or (75, 100, 0).
+        for point in [[3, 4, 0], [-6, -8, 0], [75, 100, 0]] {
+            assert_eq!(representative(Steps::snorm([8; 3]), point).map(i32::abs), [75, 100, 0]);
+        }
+        // (7, 6, 0) on a grid of 15: 15 / 9.22 = 1.63, and twice is (14, 12, 0); (8, 7, 0) has room for once.
+        assert_eq!(representative(Steps::snorm([5; 3]), [-7, 6, 0]), [-14, 12, 0]);
+        assert_eq!(representative(Steps::snorm([5; 3]), [8, -7, 0]), [8, -7, 0]);
+        // Odd multiples only: (1, 3, 5) has 255 / 5.916 = 43.1.
+        assert_eq!(representative(Steps::unorm(8), [3, -9, 15]), [43, -129, 215]);
+    }
+
+    #[test]
+    fn representative_halves_are_as_long_as_one() {
+        // 2 and 65504 times an axis; (1, 1, 0) over sqrt(2) is 0.70703125, or 0x39A8; (0, 2^-24, 0).
+        for (point, expected) in [
+            ([0x4000, 0, 0], [0x3C00, 0, 0]),
+            ([0, -0x7BFF, 0], [0, -0x3C00, 0]),
+            ([0x3C00, -0x3C00, 0], [0x39A8, -0x39A8, 0]),
+            ([0, 1, 0], [0, 0x3C00, 0]),
+        ] {
+            assert_eq!(representative(Fine::Halves, point), expected);
+        }
+    }
+
+    #[test]
+    fn lengths_are_compared_exactly_where_steps_differ() {
+        // 25 (244^2 + 328^2 + 81 (1023 / 511)^2) is 0.14 below 4 * 1023^2. Of (1, 0, 0) 2045 is below, 2046 not.
+        let uneven = Uneven::new([11, 11, 10]);
+        for (point, times, is_below) in [
+            ([244, 328, 9], 5, true),
+            ([244, 328, 10], 5, false),
+            ([1, 0, 0], 2045, true),
+            ([1, 0, 0], 2046, false),
+            ([0, 0, 1], 1021, true),
+            ([0, 0, 1], 1022, false),
+        ] {
+            let below = uneven.is_below_two::<f32>(point.map(I32x1).into(), I32x1(times));
+            assert_eq!(below, is_below, "{point:?}");
+        }
+    }
+}

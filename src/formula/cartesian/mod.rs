@@ -161,3 +161,115 @@ impl Symmetric for Xyz {
 }
 
 kernels!(Xyz: Words; Xyz16: [u8; 6]; BestFit: [u8; 3], BestFit::UNORM8; Floats: [u8; 12]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+
+    const SNORM8: Xyz = Xyz::snorm([8, 8, 8]);
+    const SNORM5: Xyz = Xyz::snorm([5, 5, 5]);
+    const SNORM11_10: Xyz = Xyz::snorm([11, 11, 10]);
+    const UNORM8: Xyz = Xyz::unorm(8);
+    const SNORM16: Xyz16 = Xyz16::snorm();
+    const HALVES: Xyz16 = Xyz16::halves();
+
+    fn canonical(formula: Xyz, code: i32) -> i32 {
+        formula.mirror::<f32>(code.into(), [false; 3]).0
+    }
+
+    fn canonical16(formula: Xyz16, code: [i32; 3]) -> [i32; 3] {
+        // Only the low bits are stored.
+        formula.mirror::<f32>(code.map(I32x1), [false; 3]).map(|c| c.0 & 0xFFFF)
+    }
+
+    #[test]
+    fn components_are_rounded_each_for_itself() {
+        let v = Vec3::new(0.48f32, 0.36, 0.8);
+        // 127 v = (60.96, 45.72, 101.6).
+        assert_eq!(SNORM8.encode(v * 9.0).0, 0x66_2E3D);
+        assert_eq!(SNORM8.encode(-v).0, 0x9A_D2C3);
+        // 1023 * 0.48 = 491.04, 1023 * 0.36 = 368.28, 511 * 0.8 = 408.8.
+        assert_eq!(SNORM11_10.encode(v).0, 491 | 368 << 11 | 409 << 22);
+        // 127.5 (1 + c): 204, 209.1 and 188.7.
+        let w = Vec3::new(0.6f32, 0.64, 0.48);
+        assert_eq!(UNORM8.encode(w).0, 0xBD_D1CC);
+        // 32767 w = (19660.2, 20970.9, 15728.2).
+        assert_eq!(SNORM16.encode(w).map(|c| c.0), [19_660, 20_971, 15_728]);
+        // 0.5 (1 + 205/1024), 0.5 (1 + 287/1024) and 0.25 (1 + 942/1024).
+        assert_eq!(HALVES.encode(w).map(|c| c.0), [0x38CD, 0x391F, 0x37AE]);
+    }
+
+    #[test]
+    fn decoding_divides_by_the_length() {
+        // (3, 4, 12) of length 13, on the grids of whole steps, and -(1, 1, 1) of odd ones.
+        let expected = Vec3::new(3.0f32, 4.0, 12.0) * (1.0 / 13.0);
+        for v in [
+            SNORM8.decode::<f32>(0x0C_0403.into()),
+            SNORM5.decode::<f32>((3 | 4 << 5 | 12 << 10).into()),
+            SNORM16.decode::<f32>([3, 4, 12].map(I32x1)),
+            HALVES.decode::<f32>([0x4200, 0x4400, 0x4A00].map(I32x1)),
+        ] {
+            assert!(v.distance_squared(expected) < 1e-12, "{v:?}");
+        }
+        let v = UNORM8.decode::<f32>(0x7F_7F7F.into());
+        assert!(v.distance_squared(Vec3::from([-0.577_350_3; 3])) < 1e-12, "{v:?}");
+    }
+
+    #[test]
+    fn axes_survive() {
+        for axis in 0..6 {
+            let mut v = [0.0f32; 3];
+            v[axis / 2] = if axis % 2 == 0 { 1.0 } else { -1.0 };
+            for formula in [SNORM8, SNORM5, SNORM11_10] {
+                for code in [formula.encode(v.into()), formula.encode_precise(v.into())] {
+                    assert_eq!(formula.decode::<f32>(code).to_array(), v);
+                }
+            }
+            for formula in [SNORM16, HALVES] {
+                for code in [formula.encode(v.into()), formula.encode_precise(v.into())] {
+                    assert_eq!(formula.decode::<f32>(code).to_array(), v);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn of_one_direction_the_code_of_about_unit_length_is_canonical() {
+        // 127 / sqrt(2) = 89.8; 15 / sqrt(14) = 4.01; odd multiples of (1, 1, 1) near 255 / sqrt(3) = 147.2.
+        assert_eq!(canonical(SNORM8, 0x00_0101), 0x00_5A5A);
+        assert_eq!(canonical(SNORM8, 0x00_007F), 0x00_007F);
+        assert_eq!(canonical(SNORM5, 1 | 2 << 5 | 3 << 10), 4 | 8 << 5 | 12 << 10);
+        assert_eq!(canonical(UNORM8, 0x80_8080), 0xC9_C9C9);
+        // 1023 / 409.2 is a little less than 2.5, but 5 times half of it is still below 2: so three times.
+        assert_eq!(canonical(SNORM11_10, 244 | 328 << 11 | 9 << 22), 732 | 984 << 11 | 27 << 22);
+        // 32767 / sqrt(3) = 18918.04.
+        assert_eq!(canonical16(SNORM16, [1, 1, 1]), [18_918; 3]);
+        assert_eq!(canonical16(HALVES, [0x4200, 0, 0x8000]), [0x3C00, 0, 0]);
+    }
+
+    #[test]
+    fn zero_reads_as_the_pole() {
+        assert_eq!(SNORM8.decode::<f32>(0.into()).to_array(), [0.0, 0.0, 1.0]);
+        assert_eq!([canonical(SNORM8, 0), canonical(SNORM5, 0)], [0x7F_0000, 15 << 10]);
+        assert_eq!(canonical16(SNORM16, [0; 3]), [0, 0, 0x7FFF]);
+        assert_eq!(canonical16(HALVES, [0, 0x8000, 0]), [0, 0, 0x3C00]);
+    }
+
+    #[test]
+    fn what_is_out_of_range_reads_as_the_greatest() {
+        assert_eq!(canonical(SNORM8, 0x80), 0x81);
+        assert_eq!(canonical(SNORM11_10, 0x200 << 22), 0x201 << 22);
+        assert_eq!(canonical16(SNORM16, [0x8000, 0, 0]), [0x8001, 0, 0]);
+        // Infinity, NaN and 65504 are one number.
+        let v = HALVES.decode::<f32>([0x7C00, 0xFE00, 0x7BFF].map(I32x1));
+        assert!(v.x == v.z && v.x == -v.y);
+    }
+
+    #[test]
+    fn the_nearest_code_may_be_of_another_length() {
+        // Of (14, 13, 0) the unit vector is (10.99, 10.21) / 15.
+        let v = Vec3::new(14.0f32, 13.0, 0.0);
+        assert_eq!([SNORM5.encode(v).0, SNORM5.encode_precise(v).0], [11 | 10 << 5, 14 | 13 << 5]);
+    }
+}

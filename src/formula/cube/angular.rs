@@ -145,3 +145,98 @@ fn div_rem<V: Simd, const D: i32>(n: V::Int) -> (V::Int, V::Int) {
     let low = divide::<V, D>(rest);
     (high.shl(16) + low, rest - low * D)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const fn cube(bits: u32) -> AngularCube {
+        AngularCube::new(bits)
+    }
+
+    fn mirror(bits: u32, code: i32, flips: [bool; 3]) -> i32 {
+        cube(bits).mirror::<f32>(code.into(), flips).0
+    }
+
+    #[test]
+    fn the_index_counts_cells_and_then_faces() {
+        // 104 = floor(sqrt(65536 / 6)) cells. 4 / pi times atan(1/4) is 0.3119, and of -3/4 -0.8193:
+        // 52 (1 + 0.3119) = 68.2 and 52 (1 - 0.8193) = 9.4.
+        let v = Vec3::new(4.0f32, 1.0, -3.0);
+        let code = (68 * 104 + 9) * 6;
+        assert_eq!([cube(16).encode(v).0, cube(16).encode_precise(v).0], [code; 2]);
+        assert_eq!(cube(16).encode(Vec3::new(-3.0f32, -4.0, 1.0)).0, code + 3);
+    }
+
+    #[test]
+    fn cells_decode_to_their_centres() {
+        // Two cells along an edge: the middle of the first is at -22.5 degrees, whose tangent is -0.414214.
+        let v = cube(5).decode::<f32>(0.into());
+        assert!(v.distance_squared(Vec3::new(0.862_856, -0.357_407, -0.357_407)) < 1e-11, "{v:?}");
+        assert_eq!(cube(5).encode(Vec3::new(1.0f32, 0.1, -0.1)).0, 2 * 6);
+    }
+
+    #[test]
+    fn axes_survive_if_a_cell_is_in_the_middle() {
+        // One cell along an edge, and three.
+        for (bits, middle) in [(4, 0), (6, 4 * 6)] {
+            for face in 0..6 {
+                let mut axis = [0.0f32; 3];
+                axis[face / 2] = if face % 2 == 0 { 1.0 } else { -1.0 };
+                let code = middle + face as i32;
+                assert_eq!(cube(bits).encode(axis.into()).0, code);
+                assert_eq!(cube(bits).encode_precise(axis.into()).0, code);
+                assert_eq!(cube(bits).decode::<f32>(code.into()).to_array(), axis);
+            }
+        }
+    }
+
+    #[test]
+    fn the_last_indices_read_as_the_last_cell() {
+        for (bits, last) in [(4, 5), (5, 23), (16, 104 * 104 * 6 - 1)] {
+            for code in [last, last + 1, (1 << bits) - 1] {
+                assert_eq!(mirror(bits, code, [false; 3]), last);
+                let v = cube(bits).decode::<f32>(code.into());
+                assert_eq!(v, cube(bits).decode::<f32>(last.into()));
+            }
+        }
+        // 6 * 26754^2 - 1, as an unsigned integer.
+        assert_eq!(mirror(32, -1, [false; 3]), (6 * 26_754u32.pow(2) - 1) as i32);
+    }
+
+    #[test]
+    fn mirror_images_count_from_the_other_end() {
+        // Cell (2, 0) of three by three on the face +X.
+        for (flips, code) in [
+            ([false, false, false], 6 * 6),
+            ([true, false, false], 6 * 6 + 1),
+            ([false, true, false], 0),
+            ([false, false, true], 8 * 6),
+        ] {
+            assert_eq!(mirror(6, 6 * 6, flips), code);
+        }
+    }
+
+    #[test]
+    fn integers_are_divided_exactly() {
+        for n in [0u32, 5, 6, 7, 65_535, 65_536, 0x7FFF_FFFF, 0x8000_0000, 0xFFFF_FFFB, 0xFFFF_FFFF]
+        {
+            let (quotient, remainder) = div_rem::<f32, 6>((n as i32).into());
+            assert_eq!([quotient.0 as u32, remainder.0 as u32], [n / 6, n % 6]);
+        }
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = AngularCube::new(8);
+        for turn in 0..60 {
+            // From pole to pole, round and round.
+            let (sin, cos) = (turn as f32 * 0.7).sin_cos();
+            let z = turn as f32 * 0.1 - 2.95;
+            let v = Vec3::new(sin, cos, z).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..256).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

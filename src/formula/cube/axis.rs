@@ -73,3 +73,35 @@ pub(super) fn largest_first<V: Simd>(v: Vec3<V>) -> (Axis<V>, Vec3<V>) {
     let axis = Axis { is_x, is_y: !is_x & z.le(y) };
     (axis, axis.first(v))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_equals_the_first_axis_is_the_largest() {
+        for (v, index) in [
+            ([1.0f32, -1.0, 1.0], 0),
+            ([0.5, -1.0, 1.0], 1),
+            ([0.5, 0.5, -1.0], 2),
+            ([-2.0, 1.0, 1.5], 0),
+            ([1.0, 1.0, 2.0], 2),
+        ] {
+            assert_eq!(largest_first(Vec3::from(v)).0.index().0, index, "{v:?}");
+        }
+    }
+
+    #[test]
+    fn components_are_turned_and_turned_back() {
+        let turned = [[5, 6, 7], [6, 7, 5], [7, 5, 6]];
+        for (index, first) in (0..).zip(turned) {
+            let axis = Axis::<f32>::new(index.into());
+            let v = Vec3::from([5, 6, 7].map(crate::simd::I32x1));
+            assert_eq!(axis.first_int(v).to_array().map(|i| i.0), first);
+            assert_eq!(axis.back_int(axis.first_int(v)), v);
+            let v = Vec3::new(5.0, 6.0, 7.0);
+            assert_eq!(axis.first(v).to_array(), first.map(|i| i as f32));
+            assert_eq!(axis.back(axis.first(v)), v);
+        }
+    }
+}

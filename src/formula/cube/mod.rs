@@ -191,3 +191,127 @@ impl<W: Spacing> Symmetric for Cube<W> {
 }
 
 kernels!(Cube<Linear>: Words; Cube<WarpedFace>: Words; AngularCube: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Parameters of 6 bits, from -31 to 31.
+    const CUBE: Cube<Linear> = Cube::<Linear>::new(16);
+    const WARPED: Cube<WarpedFace> = Cube::<WarpedFace>::new(16);
+
+    /// A face, and the parameters.
+    const fn code(face: i32, a: i32, b: i32) -> i32 {
+        face | (a & 63) << 3 | (b & 63) << 9
+    }
+
+    fn mirror(code: i32, flips: [bool; 3]) -> i32 {
+        CUBE.mirror::<f32>(code.into(), flips).0
+    }
+
+    #[test]
+    fn the_face_is_that_of_the_largest_component() {
+        // 31/4 = 7.75 and 31 * 3/4 = 23.25.
+        for (v, expected) in [
+            ([4.0f32, 1.0, -3.0], code(0, 8, -23)),
+            ([-4.0, 1.0, -3.0], code(1, 8, -23)),
+            // Next to y are z and then x.
+            ([1.0, 4.0, 3.0], code(2, 23, 8)),
+            ([1.0, -4.0, 3.0], code(3, 23, 8)),
+            ([1.0, -3.0, 4.0], code(4, 8, -23)),
+            ([1.0, -3.0, -4.0], code(5, 8, -23)),
+        ] {
+            assert_eq!(CUBE.encode(v.into()).0, expected, "{v:?}");
+            assert_eq!(CUBE.encode_precise(v.into()).0, expected, "{v:?}");
+        }
+        assert_eq!(code(0, 8, -23), 0x5240);
+        // (31, 8, -23) over its length 39.4208.
+        let v = CUBE.decode::<f32>(0x5240.into());
+        assert!(v.distance_squared(Vec3::new(0.786_387, 0.202_939, -0.583_449)) < 1e-11, "{v:?}");
+    }
+
+    #[test]
+    fn warped_steps_are_of_the_angle() {
+        // 15 degrees are a third of 45: 31/3 = 10.3.
+        let v = Vec3::new(1.0f32, 0.267_949, 0.0);
+        assert_eq!([WARPED.encode(v).0, WARPED.encode_precise(v).0], [code(0, 10, 0); 2]);
+        // 45 * 10 / 31 = 14.516 degrees.
+        let decoded = WARPED.decode::<f32>(code(0, 10, 0).into());
+        assert!(decoded.distance_squared(Vec3::new(0.968_077, 0.250_653, 0.0)) < 1e-11);
+    }
+
+    #[test]
+    fn axes_survive() {
+        for face in 0..6 {
+            let mut axis = [0.0f32; 3];
+            axis[face / 2] = if face % 2 == 0 { 1.0 } else { -1.0 };
+            let code = face as i32;
+            assert_eq!([CUBE.encode(axis.into()).0, CUBE.encode_precise(axis.into()).0], [code; 2]);
+            assert_eq!(
+                [WARPED.encode(axis.into()).0, WARPED.encode_precise(axis.into()).0],
+                [code; 2]
+            );
+            assert_eq!(CUBE.decode::<f32>(code.into()).to_array(), axis);
+            assert_eq!(WARPED.decode::<f32>(code.into()).to_array(), axis);
+        }
+    }
+
+    #[test]
+    fn edges_belong_to_the_first_of_their_axes() {
+        for (there, canonical) in [
+            // (1, 1, 0), (-1, 0, 1) and (0, -1, 1), and the corner (1, -1, -1).
+            (code(2, 0, 31), code(0, 31, 0)),
+            (code(4, -31, 0), code(1, 0, 31)),
+            (code(4, 0, -31), code(3, 31, 0)),
+            (code(5, 31, -31), code(0, -31, -31)),
+            (code(3, 31, 30), code(3, 31, 30)),
+        ] {
+            assert_eq!(mirror(there, [false; 3]), canonical);
+            assert_eq!(CUBE.decode::<f32>(there.into()), CUBE.decode::<f32>(canonical.into()));
+        }
+        assert_eq!(CUBE.encode(Vec3::new(0.0f32, -1.0, 1.0)).0, code(3, 31, 0));
+    }
+
+    #[test]
+    fn what_is_out_of_range_reads_as_its_neighbour() {
+        // Faces 6 and 7, a parameter of -32, and the unused bit.
+        for (there, canonical) in [
+            (code(6, 8, -23), code(4, 8, -23)),
+            (code(7, 8, -23), code(5, 8, -23)),
+            (code(0, -32, 0), code(0, -31, 0)),
+            (0x8000 | code(0, 8, -23), code(0, 8, -23)),
+        ] {
+            assert_eq!(mirror(there, [false; 3]), canonical);
+            let indices = [there, canonical].map(|c| CUBE.octant_index::<f32>(c.into()).0);
+            assert_eq!(indices[0], indices[1]);
+        }
+    }
+
+    #[test]
+    fn mirror_images_have_opposite_parameters() {
+        for (flips, expected) in [
+            ([true, false, false], code(3, 23, -8)),
+            ([false, true, false], code(2, 23, 8)),
+            ([false, false, true], code(3, -23, 8)),
+        ] {
+            assert_eq!(mirror(code(3, 23, 8), flips), expected);
+        }
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = Cube::<WarpedFace>::new(9);
+        for v in [
+            [0.1f32, 0.2, 0.9],
+            [-0.7, 0.7, 0.1],
+            [0.3, -0.2, -0.4],
+            [0.9, -0.01, -0.05],
+            [-0.2, -0.9, -0.8],
+        ] {
+            let v = Vec3::from(v).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..512).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

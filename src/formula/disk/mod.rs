@@ -244,3 +244,139 @@ impl Symmetric for Disk {
 }
 
 kernels!(Disk: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::Projection::{EqArea, EqDist, Stereo};
+    use super::Stretch::{Concentric, Ellipse, Plain};
+    use super::*;
+
+    const PROJECTIONS: [Projection; 3] = [Stereo, EqArea, EqDist];
+    const STRETCHES: [Stretch; 3] = [Plain, Concentric, Ellipse];
+
+    fn mirror(disk: Disk, code: i32, flips: [bool; 3]) -> i32 {
+        disk.mirror::<f32>(code.into(), flips).0
+    }
+
+    #[test]
+    fn columns_tell_the_hemisphere() {
+        // z = 0.8: k is 1 / 1.8, 1 / sqrt(1.8), and 2 acos(0.8) / (0.6 pi) = 0.682776. So (X, Y) is
+        // (0.26667, 0.2), (0.35777, 0.26833) or (0.32773, 0.24580): column 63.5 (1 + X), row 127 Y.
+        let v = Vec3::new(0.48f32, 0.36, 0.8);
+        for (projection, upper, lower) in
+            [(Stereo, 0x1950, 0x19B0), (EqArea, 0x2256, 0x22AA), (EqDist, 0x1F54, 0x1FAC)]
+        {
+            let disk = Disk::new(projection, Plain, 16);
+            assert_eq!([disk.encode(v).0, disk.encode_precise(v).0], [upper; 2]);
+            assert_eq!(disk.encode(Vec3 { z: -0.8, ..v }).0, lower);
+        }
+    }
+
+    #[test]
+    fn stretches_fill_the_square() {
+        let v = Vec3::new(0.48f32, 0.36, 0.8);
+        // r = 1/3 and atan(3/4) 4 / pi = 0.81933: (0.33333, 0.27311).
+        assert_eq!(Disk::new(Stereo, Concentric, 16).encode(v).0, 0x2355);
+        // u = 0.269478 and v = 0.203733 have u sqrt(1 - v^2 / 2) = 0.26667 and v sqrt(1 - u^2 / 2) = 0.2.
+        assert_eq!(Disk::new(Stereo, Ellipse, 16).encode(v).0, 0x1A51);
+    }
+
+    #[test]
+    fn promised_axes_survive() {
+        for projection in PROJECTIONS {
+            for stretch in STRETCHES {
+                let disk = Disk::new(projection, stretch, 16);
+                for (x, code) in [(1.0f32, 0x007F), (-1.0, 0x0000)] {
+                    let axis = Vec3::new(x, 0.0, 0.0);
+                    assert_eq!([disk.encode(axis).0, disk.encode_precise(axis).0], [code; 2]);
+                    assert_eq!(disk.decode::<f32>(code.into()), axis);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_corners_of_plain_equal_area_are_the_other_pole() {
+        let disk = Disk::new(EqArea, Plain, 16);
+        for (z, code) in [(-1.0f32, 0x7F7F), (1.0, 0x7F81)] {
+            let pole = Vec3::new(0.0, 0.0, z);
+            assert_eq!(disk.encode_precise(pole).0, code);
+            assert_eq!(disk.decode::<f32>(code.into()), pole);
+            assert_eq!(mirror(disk, code, [false, false, true]), code ^ 0xFE);
+        }
+        // Column 0 is u = -1, and a row of -127 is v = -1.
+        assert_eq!(
+            [0x7F00, 0x8100, 0x817F, 0x8181].map(|code| mirror(disk, code, [false; 3])),
+            [0x7F7F, 0x7F7F, 0x7F7F, 0x7F81]
+        );
+    }
+
+    #[test]
+    fn the_equator_is_upper() {
+        for projection in PROJECTIONS {
+            for stretch in STRETCHES {
+                let disk = Disk::new(projection, stretch, 16);
+                // Column -127 and -128, which reads as -127.
+                assert_eq!(
+                    [0x0081, 0x0080].map(|code| mirror(disk, code, [false; 3])),
+                    [0x007F; 2]
+                );
+            }
+            // With stretches all of the square's border, as row -127 of column -80.
+            let disk = Disk::new(projection, Concentric, 16);
+            assert_eq!(mirror(disk, 0x81B0, [false; 3]), 0x8150);
+            assert_eq!(mirror(disk, 0x82B0, [false; 3]), 0x82B0);
+        }
+    }
+
+    #[test]
+    fn corners_of_the_plain_square_are_past_the_equator() {
+        // X = Y = 1: stereo (2 X, 2 Y, 1 - 2) / 3.
+        let v = Disk::new(Stereo, Plain, 16).decode::<f32>(0x7F7F.into());
+        assert!(v.distance_squared(Vec3::new(2.0, 2.0, -1.0) * (1.0 / 3.0)) < 1e-12, "{v:?}");
+    }
+
+    #[test]
+    fn a_point_in_both_squares_belongs_to_its_own() {
+        // Column 503 is u = 495; with v = 432 r = 657. Times (2 * 511 - 657) / 657 = 5/9 it is (275, 240),
+        // and u = 275 is column 393.
+        let disk = Disk::new(EqDist, Plain, 20);
+        let [there, own] = [432 << 10 | (1024 - 503), 240 << 10 | 393];
+        assert_eq!(mirror(disk, there, [false; 3]), own);
+        let [v, w] = [there, own].map(|code| disk.decode::<f32>(code.into()));
+        assert!(v.distance_squared(w) < 1e-12, "{v:?}");
+        assert_eq!(disk.encode_precise(v).0, own);
+    }
+
+    #[test]
+    fn mirror_images_count_from_the_other_end() {
+        for stretch in STRETCHES {
+            let disk = Disk::new(Stereo, stretch, 16);
+            for (flips, code) in [
+                ([true, false, false], 0x192F),
+                ([false, true, false], 0xE750),
+                ([false, false, true], 0x19B0),
+                ([true, true, true], 0xE7D1),
+            ] {
+                assert_eq!(mirror(disk, 0x1950, flips), code);
+            }
+        }
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        for (projection, stretch) in PROJECTIONS.into_iter().flat_map(|p| STRETCHES.map(|s| (p, s)))
+        {
+            let small = Disk::new(projection, stretch, 10);
+            for turn in 0..20 {
+                // From pole to pole, round and round.
+                let (sin, cos) = (turn as f32 * 0.7).sin_cos();
+                let z = turn as f32 * 0.3 - 2.95;
+                let v = Vec3::new(sin, cos, z).normalize();
+                let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+                let least = (0..1024).map(distance).fold(4.0, f32::min);
+                assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+            }
+        }
+    }
+}

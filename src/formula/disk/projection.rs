@@ -110,3 +110,78 @@ impl Projection {
 fn one_plus_z<V: Simd>(Vec3 { x, y, z }: Vec3<V>, past: bool) -> V {
     if past { (x * x + y * y).max(1e-30) / (V::splat(1.0) - z) } else { z + 1.0 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Projection; 3] = [Projection::Stereo, Projection::EqArea, Projection::EqDist];
+
+    fn parts(point: DiskPoint<f32>) -> [f32; 4] {
+        [point.x, point.y, point.one_minus_r2, point.two_minus_r2]
+    }
+
+    fn assert_near(point: DiskPoint<f32>, expected: [f32; 4]) {
+        let off = parts(point).into_iter().zip(expected).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f32::max) < 2e-6, "{:?}", parts(point));
+    }
+
+    #[test]
+    fn the_disk_is_reached_from_the_own_hemisphere() {
+        // D = 1 - r^2 and E = 2 - r^2, with r = 1/3, r = sqrt(0.2), and r = 2 acos(0.8) / pi = 0.409666.
+        let v = Vec3::new(0.48f32, 0.36, 0.8);
+        for (projection, expected) in ALL.into_iter().zip([
+            [0.266_666_7, 0.2, 0.888_888_9, 1.888_889],
+            [0.357_770_9, 0.268_328_2, 0.8, 1.8],
+            [0.327_732_4, 0.245_799_3, 0.832_174, 1.832_174],
+        ]) {
+            assert_near(projection.project(v, false, true), expected);
+        }
+    }
+
+    #[test]
+    fn past_the_equator_points_are_outside() {
+        // z = -0.28, r = 0.96: stereo r = 0.96 / 0.72 = 4/3, eqarea r = 0.96 / sqrt(0.72) = 1.131371, eqdist
+        // r = 2 acos(-0.28) / pi = 1.180669.
+        let v = Vec3::new(0.96f32, 0.0, -0.28);
+        for (projection, expected) in ALL.into_iter().zip([
+            [1.333_333_3, 0.0, -0.777_777_8, 0.222_222_2],
+            [1.131_370_9, 0.0, -0.28, 0.72],
+            [1.180_669, 0.0, -0.393_979_2, 0.606_020_8],
+        ]) {
+            assert_near(projection.project(v, true, true), expected);
+        }
+    }
+
+    #[test]
+    fn unprojecting_leads_back() {
+        for projection in ALL {
+            for v in
+                [[0.48f32, -0.36, 0.8], [-0.6, 0.8, 0.0], [0.0, 0.0, 1.0], [0.768, 0.576, -0.28]]
+            {
+                let back = projection.unproject(projection.project(v.into(), v[2] < 0.0, true));
+                assert!(back.distance_squared(v.into()) < 1e-12, "{back:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_equidistant_points_are_in_both_squares() {
+        // (495, 432) has r = 657, and (2 * 511 - 657) / 657 = 5/9; (497, 496) has no whole r.
+        for (projection, outer, is_duplicate) in [
+            (Projection::EqDist, [495, 432], true),
+            (Projection::EqDist, [-495, -432], true),
+            (Projection::EqDist, [497, 496], false),
+            (Projection::EqDist, [275, 240], false),
+            (Projection::Stereo, [495, 432], false),
+        ] {
+            let outer = outer.map(crate::simd::I32x1);
+            let (found, inner) = projection.duplicate_of::<f32>(outer, 511);
+            assert_eq!(found, is_duplicate);
+            if found {
+                assert_eq!(inner.map(|i| i.0.abs()), [275, 240]);
+                assert_eq!(inner[0].0 < 0, outer[0].0 < 0);
+            }
+        }
+    }
+}

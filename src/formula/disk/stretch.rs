@@ -157,3 +157,86 @@ impl Scale {
         (V::from_int(max - i) * self.inverse) * (V::from_int(max + i) * self.inverse)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+    use core::f32::consts::FRAC_1_SQRT_2;
+
+    const SCALE: Scale = Scale::new(127);
+
+    fn point(x: f32, y: f32) -> DiskPoint<f32> {
+        let rr = x * x + y * y;
+        DiskPoint { x, y, one_minus_r2: 1.0 - rr, two_minus_r2: 2.0 - rr }
+    }
+
+    fn unstretch(stretch: Stretch, square: [i32; 2], by_root_e: bool) -> [f32; 4] {
+        let p = stretch.unstretch::<f32>(square.map(I32x1), SCALE, by_root_e);
+        [p.x, p.y, p.one_minus_r2, p.two_minus_r2]
+    }
+
+    fn assert_near<const N: usize>(values: [f32; N], expected: [f32; N]) {
+        let off = values.into_iter().zip(expected).map(|(a, b)| (a - b).abs());
+        assert!(off.fold(0.0, f32::max) < 2e-6, "{values:?}");
+    }
+
+    #[test]
+    fn circles_become_squares() {
+        // r = 1/2 at 0, 30, 45, 60 and 180 degrees: 4 / pi times 30 degrees is 2/3.
+        let [sin, cos] = [0.25, 0.433_012_7];
+        for ((x, y), square) in [
+            ((0.5, 0.0), [0.5, 0.0]),
+            ((cos, sin), [0.5, 1.0 / 3.0]),
+            ((sin, cos), [1.0 / 3.0, 0.5]),
+            ((-cos, sin), [-0.5, 1.0 / 3.0]),
+            ((sin, -cos), [1.0 / 3.0, -0.5]),
+        ] {
+            assert_near(Stretch::Concentric.stretch(point(x, y)), square);
+            assert_near(Stretch::Plain.stretch(point(x, y)), [x, y]);
+        }
+    }
+
+    #[test]
+    fn ellipses_are_those_of_nowell() {
+        // u = v = 1/2: X = Y = 0.5 sqrt(1 - 1/8). u = 1, v = 1/2: X = sqrt(1 - 1/8), Y = 0.5 sqrt(1/2).
+        for ((x, y), square) in [
+            ((0.467_707_2, 0.467_707_2), [0.5, 0.5]),
+            ((0.935_414_3, -0.353_553_4), [1.0, -0.5]),
+            ((0.0, -0.3), [0.0, -0.3]),
+        ] {
+            assert_near(Stretch::Ellipse.stretch(point(x, y)), square);
+        }
+    }
+
+    #[test]
+    fn corners_of_the_square_are_on_the_rim() {
+        for stretch in [Stretch::Concentric, Stretch::Ellipse] {
+            let [x, y, d, e] = unstretch(stretch, [127, -127], false);
+            assert_near([x, y], [FRAC_1_SQRT_2, -FRAC_1_SQRT_2]);
+            assert_eq!([d, e], [0.0, 1.0]);
+        }
+        assert_eq!(unstretch(Stretch::Plain, [127, -127], false), [1.0, -1.0, -1.0, 0.0]);
+    }
+
+    #[test]
+    fn stretching_leads_back() {
+        for stretch in [Stretch::Plain, Stretch::Concentric, Stretch::Ellipse] {
+            for [u, v] in [[64, 21], [-21, 64], [127, 3], [-90, -89], [1, 0]] {
+                let [x, y, d, e] = unstretch(stretch, [u, v], false);
+                let back = stretch.stretch(DiskPoint { x, y, one_minus_r2: d, two_minus_r2: e });
+                assert_near(back, [u as f32 / 127.0, v as f32 / 127.0]);
+                assert_near([d, e], [1.0 - x * x - y * y, 2.0 - x * x - y * y]);
+            }
+        }
+    }
+
+    #[test]
+    fn the_root_of_e_is_a_factor_if_asked_for() {
+        for stretch in [Stretch::Plain, Stretch::Concentric, Stretch::Ellipse] {
+            let [x, y, d, e] = unstretch(stretch, [64, -21], false);
+            let k = e.sqrt();
+            assert_near(unstretch(stretch, [64, -21], true), [x * k, y * k, d, e]);
+        }
+    }
+}

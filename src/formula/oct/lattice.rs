@@ -99,3 +99,74 @@ pub(crate) fn nearest_on_octahedron<V: Simd>(p: Vec3<V>, steps: Steps) -> Vec3<V
     }
     nearest.point
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::I32x1;
+
+    fn ints<const N: usize>(values: [I32x1; N]) -> [i32; N] {
+        values.map(|i| i.0)
+    }
+
+    #[test]
+    fn the_square_folds_onto_the_octahedron() {
+        for (square, point) in [
+            ([3, 2], [3, 2, 2]),
+            ([5, 4], [3, 2, -2]),
+            ([-6, 5], [-2, 1, -4]),
+            ([7, -7], [0, 0, -7]),
+            // On the diagonal u + w = 7, the equator.
+            ([4, -3], [4, -3, 0]),
+        ] {
+            assert_eq!(ints(unfold::<f32>(square.map(I32x1), 7).to_array()), point);
+        }
+    }
+
+    #[test]
+    fn the_other_hemisphere_is_across_the_diagonal() {
+        for (a, b) in [([3, 2], [5, 4]), ([-6, 5], [-2, 1]), ([4, -3], [4, -3]), ([0, 0], [7, 7])] {
+            assert_eq!(ints(across_equator::<f32>(a.map(I32x1), 7)), b);
+        }
+        assert_eq!(ints(across_equator::<f32>([5, 4].map(I32x1), 7)), [3, 2]);
+    }
+
+    #[test]
+    fn the_border_has_one_sign() {
+        for (a, b) in
+            [([-3, 7], [3, 7]), ([-7, -2], [-7, 2]), ([-7, -7], [7, 7]), ([-6, -3], [-6, -3])]
+        {
+            assert_eq!(ints(plus_on_border::<f32>(a.map(I32x1), 7)), b);
+        }
+    }
+
+    #[test]
+    fn points_are_numbered_by_their_sum() {
+        let points = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2], [3, 0]];
+        for (n, [i, j]) in points.into_iter().enumerate() {
+            assert_eq!(triangle_index::<f32>(I32x1(i), I32x1(j)).0, n as i32);
+        }
+        assert_eq!([triangle_len(0), triangle_len(2), triangle_len(7)], [1, 6, 36]);
+    }
+
+    #[test]
+    fn triangles_point_up_or_down() {
+        let steps = Steps::new(7);
+        let up = triangle_around(Vec3::new(0.25f32, 0.5, 6.25), steps);
+        assert_eq!(up, (Vec3::new(0.0, 0.0, 6.0), 1.0));
+        let down = triangle_around(Vec3::new(0.75f32, 0.75, 5.5), steps);
+        assert_eq!(down, (Vec3::new(1.0, 1.0, 6.0), -1.0));
+    }
+
+    #[test]
+    fn the_nearest_point_is_a_corner_of_the_triangle() {
+        let steps = Steps::new(7);
+        for (p, nearest) in [
+            ([0.25f32, 0.5, 6.25], [0.0, 0.0, 7.0]),
+            ([0.75, 0.75, 5.5], [1.0, 1.0, 5.0]),
+            ([2.6, 2.2, 2.2], [3.0, 2.0, 2.0]),
+        ] {
+            assert_eq!(nearest_on_octahedron(p.into(), steps).to_array(), nearest);
+        }
+    }
+}

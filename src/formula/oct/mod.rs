@@ -180,3 +180,113 @@ impl<P: Projection> Symmetric for Oct<P> {
 }
 
 kernels!(Oct<Central>: Words; Oct<Warped>: Words; Oct<EqualArea>: Words; OctUnorm: Words);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OCT16: Oct<Central> = Oct::new(16);
+    const SIXOCT16: Oct<Central> = Oct::with_multiple(16, 6);
+
+    fn mirror(oct: Oct<Central>, code: i32, flips: [bool; 3]) -> i32 {
+        oct.mirror::<f32>(code.into(), flips).0
+    }
+
+    #[test]
+    fn the_lower_half_is_folded_over_the_diagonals() {
+        // (1, 2, 2) 127 / 5 = (25.4, 50.8, 50.8); folded (127 - 50.8, 127 - 25.4) = (76.2, 101.6).
+        for (v, code) in [
+            ([1.0, 2.0, 2.0], 0x3319),
+            ([-1.0, 2.0, 2.0], 0x33E7),
+            ([1.0, 2.0, -2.0], 0x664C),
+            ([-1.0, -2.0, -2.0], 0x9AB4),
+        ] {
+            assert_eq!(OCT16.encode::<f32>(v.into()).0, code, "{v:?}");
+        }
+        assert_eq!(OCT16.point::<f32>(0x664C.into()).to_array().map(|i| i.0), [25, 51, -51]);
+        assert_eq!(mirror(OCT16, 0x3319, [false, false, true]), 0x664C);
+        assert_eq!(mirror(OCT16, 0x664C, [true, true, true]), 0xCDE7);
+    }
+
+    #[test]
+    fn ties_go_to_even() {
+        for (v, code) in [([25.5, 50.0, 51.5], 0x321A), ([26.5, 50.0, 50.5], 0x321A)] {
+            assert_eq!(OCT16.encode::<f32>(v.into()).0, code, "{v:?}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_point_need_not_be_the_rounded_one() {
+        // Off (42, 42, 43) by (0.45, 0.4, -0.85), and off (43, 42, 42) by (-0.55, 0.4, 0.15).
+        let v = [42.45f32, 42.4, 42.15];
+        assert_eq!(OCT16.encode(v.into()).0, 0x2A2A);
+        assert_eq!(OCT16.encode_precise(v.into()).0, 0x2A2B);
+    }
+
+    #[test]
+    fn axes_survive() {
+        let codes = [0x007F, 0x0081, 0x7F00, 0x8100, 0x0000, 0x7F7F];
+        for (i, code) in codes.into_iter().enumerate() {
+            let mut axis = [0.0f32; 3];
+            axis[i / 2] = if i % 2 == 0 { 1.0 } else { -1.0 };
+            assert_eq!(OCT16.encode(axis.into()).0, code);
+            assert_eq!(OCT16.encode_precise(axis.into()).0, code);
+            assert_eq!(OCT16.decode::<f32>(code.into()).to_array(), axis);
+        }
+    }
+
+    #[test]
+    fn the_sign_of_a_zero_on_the_border_is_plus() {
+        // Both (127, 64) and (127, -64) are (63, 0, -64), and all corners are -Z.
+        for (code, canonical) in
+            [(0xC07F, 0x407F), (0x7FC0, 0x7F40), (0x8181, 0x7F7F), (0x8101, 0x8101)]
+        {
+            let decoded = OCT16.decode::<f32>(code.into());
+            assert_eq!(decoded, OCT16.decode::<f32>(canonical.into()));
+            assert_eq!(mirror(OCT16, code, [false; 3]), canonical);
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_range_reads_as_the_nearest() {
+        assert_eq!(mirror(OCT16, 0x0080, [false; 3]), 0x0081);
+        // The steps of sixoct16 are 126.
+        assert_eq!(mirror(SIXOCT16, 0x007F, [false; 3]), 0x007E);
+        assert_eq!(mirror(SIXOCT16, 0x8000, [false; 3]), 0x8200);
+    }
+
+    #[test]
+    fn sixoct_keeps_edges_and_corners_of_a_cube() {
+        for (v, code) in [([1.0f32, 1.0, 1.0], 0x2A2A), ([1.0, 1.0, 0.0], 0x3F3F)] {
+            assert_eq!(SIXOCT16.encode(v.into()).0, code);
+            let [x, y, z] = SIXOCT16.decode::<f32>(code.into()).to_array();
+            assert_eq!([y, z], [x, x * v[2]]);
+        }
+    }
+
+    #[test]
+    fn stochastic_weights_are_parts_times_lengths() {
+        // Half way from (25, 50, 52) to (26, 50, 51), of lengths 76.35 and 76.01: 0.4989 of the time the latter.
+        for (t, code) in [(0.0, 0x321A), (0.498, 0x321A), (0.4995, 0x3219), (0.999, 0x3219)] {
+            let v = Vec3::new(25.5f32, 50.0, 51.5);
+            assert_eq!(OCT16.encode_stochastic(v, t).0, code, "{t}");
+        }
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = Oct::<Warped>::new(8);
+        for v in [
+            [0.1f32, 0.2, 0.9],
+            [-0.7, 0.7, 0.1],
+            [0.3, -0.2, -0.4],
+            [0.9, -0.01, -0.05],
+            [-0.2, -0.9, -0.8],
+        ] {
+            let v = Vec3::from(v).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..256).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}

@@ -133,3 +133,86 @@ impl Projection for EqualArea {
         Vec3::new(h * cos, h * sin, height).negate_where_negative(p).normalize()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STEPS: Steps = Steps::new(127);
+
+    fn assert_near(v: Vec3<f32>, expected: [f32; 3]) {
+        assert!(v.distance_squared(expected.into()) < 1e-10, "{v:?}");
+    }
+
+    #[test]
+    fn projections_are_inverse_to_directions() {
+        fn check<P: Projection>() {
+            for v in [[0.48f32, 0.36, 0.8], [0.6, 0.8, 0.0], [0.02, 0.01, 0.9997], [0.8, 0.0, 0.6]]
+            {
+                let p = P::project(Vec3::from(v), STEPS);
+                assert!((p.x + p.y + p.z - 127.0).abs() < 1e-3);
+                let back = P::direction(p * STEPS.inverse);
+                assert!(back.distance_squared(Vec3::from(v).normalize()) < 1e-10, "{v:?}");
+            }
+        }
+        check::<Central>();
+        check::<Warped>();
+        check::<EqualArea>();
+    }
+
+    #[test]
+    fn signs_do_not_count_for_projections_but_for_directions() {
+        fn check<P: Projection>() {
+            let v = Vec3::new(1.0f32, -2.0, -3.0);
+            assert_eq!(P::project(v, STEPS), P::project(v.abs(), STEPS));
+            let p = Vec3::new(0.25f32, -0.25, -0.5);
+            let signed = P::direction(p.abs()).negate_where_negative(p);
+            assert_eq!(P::direction(p), signed);
+        }
+        check::<Central>();
+        check::<Warped>();
+        check::<EqualArea>();
+    }
+
+    #[test]
+    fn the_warp_is_the_cubic() {
+        // t = 32/127, 1 - t = 95/127: g(t) = 0.251969 (1 + 0.280224 * 0.748031) = 0.304786, and
+        // g(1 - t) = 0.748031 (1 - 0.072261 * 0.251969) = 0.734411. Their ratio is 0.415007.
+        let v = Warped::direction(Vec3::new(0.0f32, 32.0, 95.0) * STEPS.inverse);
+        assert_near(v, [0.0, 0.383_303, 0.923_623]);
+        assert_near(Warped::project(v, STEPS) * STEPS.inverse, [0.0, 0.251_969, 0.748_031]);
+    }
+
+    #[test]
+    fn the_corner_and_the_axes_of_a_warped_octant_stay() {
+        assert_near(Warped::project(Vec3::new(1.0f32, 1.0, 1.0), STEPS), [127.0 / 3.0; 3]);
+        for axis in [[1.0f32, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] {
+            assert_near(Warped::project(axis.into(), STEPS) * STEPS.inverse, axis);
+            assert_eq!(Warped::direction(Vec3::from(axis)).to_array(), axis);
+        }
+    }
+
+    #[test]
+    fn equal_area_has_even_steps_of_azimuth_and_of_the_root_of_height() {
+        // z = 0.75 is r = sqrt(1 - z) = 1/2; 60 degrees are a = 2/3: (r (1 - a), r a, 1 - r).
+        let v = [0.330_719f32, 0.572_822, 0.75];
+        let p = [1.0 / 6.0, 1.0 / 3.0, 0.5];
+        assert_near(EqualArea::project(v.into(), STEPS) * STEPS.inverse, p);
+        assert_near(EqualArea::direction(p.into()), v);
+    }
+
+    #[test]
+    fn the_nearest_lattice_point_is_found() {
+        fn nearest<P: Projection>(p: [f32; 3]) -> [f32; 3] {
+            let v = P::direction(Vec3::from(p) * STEPS.inverse);
+            P::nearest(v, STEPS).to_array()
+        }
+        // Near the corner (1, 1, 1) triangles are equilateral. (42.45, 42.4, 42.15) is rounded to
+        // (42, 42, 43), but (43, 42, 42) is nearer.
+        let p = [42.45, 42.4, 42.15];
+        assert_eq!(nearest::<Central>(p), [43.0, 42.0, 42.0]);
+        assert_eq!(nearest::<Warped>(p), [43.0, 42.0, 42.0]);
+        assert_eq!(nearest::<EqualArea>([0.1, 0.2, 126.7]), [0.0, 0.0, 127.0]);
+        assert_eq!(nearest::<EqualArea>([20.1, 60.2, 46.7]), [20.0, 60.0, 47.0]);
+    }
+}

@@ -94,3 +94,73 @@ impl Formula for OctUnorm {
         self.pack::<V>(self.canonical_point::<V>(indices))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const OCT: OctUnorm = OctUnorm::new(16);
+
+    fn mirror(code: i32, flips: [bool; 3]) -> i32 {
+        OCT.mirror::<f32>(code.into(), flips).0
+    }
+
+    #[test]
+    fn parameters_are_biased_and_the_lower_half_is_folded() {
+        // 127.5 (1 + 0.1) = 140.25 and 127.5 (1 + 0.2) = 153.
+        assert_eq!(OCT.encode(Vec3::new(1.0f32, 2.0, 7.0)).0, 0x998C);
+        // Folded over the diagonals (1 - 0.1, 1 - 0.3): 127.5 (1 + 0.9) = 242.25, 127.5 (1 + 0.7) = 216.75.
+        assert_eq!(OCT.encode(Vec3::new(3.0f32, 1.0, -6.0)).0, 0xD9F2);
+        assert_eq!(OCT.encode(Vec3::new(-3.0f32, 1.0, -6.0)).0, 0xD90D);
+    }
+
+    #[test]
+    fn there_is_no_zero() {
+        // Half of 255 is a tie, and 128 is (2 * 128 - 255) / 255 = 1/255.
+        let code = OCT.encode(Vec3::new(0.0f32, 0.0, 1.0));
+        assert_eq!(code.0, 0x8080);
+        let v = OCT.decode::<f32>(code);
+        assert_eq!(v.x, v.y);
+        assert!((v.x * 253.0 - v.z).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_lower_pole_survives() {
+        let pole = Vec3::new(0.0f32, 0.0, -1.0);
+        assert_eq!(OCT.encode(pole).0, 0xFFFF);
+        assert_eq!(OCT.encode_precise(pole).0, 0xFFFF);
+        assert_eq!(OCT.decode::<f32>(0xFFFF.into()), pole);
+    }
+
+    #[test]
+    fn on_the_border_the_greater_index_counts() {
+        // Index 77 is -101/255, and 178 is 101/255.
+        for (code, canonical) in [(0x4D00, 0xB200), (0x00B2, 0x00B2), (0xFF4D, 0xFFB2), (0, 0xFFFF)]
+        {
+            assert_eq!(mirror(code, [false; 3]), canonical, "{code:x}");
+        }
+    }
+
+    #[test]
+    fn mirrored_indices_count_from_the_other_end() {
+        assert_eq!(mirror(0x998C, [true, false, false]), 0x9973);
+        assert_eq!(mirror(0x998C, [false, true, false]), 0x668C);
+    }
+
+    #[test]
+    fn of_all_codes_the_nearest_is_found() {
+        let small = OctUnorm::new(8);
+        for v in [
+            [0.1f32, 0.2, 0.9],
+            [-0.7, 0.7, 0.1],
+            [0.3, -0.2, -0.4],
+            [0.9, -0.01, -0.05],
+            [-0.2, -0.9, -0.8],
+        ] {
+            let v = Vec3::from(v).normalize();
+            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
+            let least = (0..256).map(distance).fold(4.0, f32::min);
+            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
+        }
+    }
+}
