@@ -361,7 +361,7 @@ impl<const N: usize, const C: usize> Output for Rows<N, C> {
 pub(crate) struct Strided<const C: usize>;
 
 /// Size in bytes of what is loaded or stored of a row at once.
-const QUAD: usize = 16;
+pub(super) const QUAD: usize = 16;
 
 /// Whole rows.
 #[derive(Clone, Copy)]

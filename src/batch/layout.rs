@@ -3,7 +3,7 @@
 
 use bytemuck::Pod;
 
-use super::columns::{Columns, Input, Output, RowSlice, RowSliceMut, Rows, Strided, empty};
+use super::columns::{Columns, Input, Output, QUAD, RowSlice, RowSliceMut, Rows, Strided, empty};
 use super::storage::{CodeSlice, CodeSliceMut, MAX_CODE, copy, swap_if_big_endian};
 use super::{Kernel, map};
 use crate::simd::stream::{self, Fence};
@@ -358,26 +358,31 @@ fn split_columns<const K: usize>(
     <Columns<K> as Output>::split(columns, at)
 }
 
+/// Number of whole rows in bytes, if their stride is one that kernels take. The last row may end before
+/// a whole stride.
+fn whole_rows<const K: usize>(bytes: &[u8], stride: usize) -> usize {
+    if stride == 4 * K || stride >= QUAD { bytes.len().checked_div(stride).unwrap_or(0) } else { 0 }
+}
+
 /// From rows to columns, as many as those have elements.
 #[inline(never)]
 fn gather<const K: usize>(bytes: &[u8], stride: usize, columns: [&mut [f32]; K]) {
     let len = columns.first().map_or(0, |column| column.len());
+    let whole = whole_rows::<K>(bytes, stride).min(len);
+    let Some((rows, rest)) = bytes.split_at_checked(whole * stride) else { return };
+    let Some((columns, rest_columns)) = split_columns(columns, whole) else { return };
     if stride == 4 * K {
-        return gather_rows::<K, K>(bytes, columns, len);
-    }
-    if stride == 16 {
-        return gather_rows::<4, K>(bytes, columns, len);
-    }
-    // The last row may end before a whole stride.
-    let whole = if stride > 16 { (bytes.len() / stride).min(len) } else { 0 };
-    if let Some((rows, rest)) = bytes.split_at_checked(whole * stride)
-        && let Some((columns, rest_columns)) = split_columns(columns, whole)
-    {
+        let rows = rows.as_chunks().0.as_chunks().0;
+        map::<Rows<K, K>, Columns<K>>(Transpose, rows, columns);
+    } else if stride == QUAD {
+        let rows = rows.as_chunks().0.as_chunks().0;
+        map::<Rows<4, K>, Columns<K>>(Transpose, rows, columns);
+    } else {
         map::<Strided<K>, Columns<K>>(Transpose, RowSlice { bytes: rows, stride }, columns);
-        for (c, column) in rest_columns.into_iter().enumerate() {
-            for (to, row) in column.iter_mut().zip(rest.chunks(stride.max(1))) {
-                *to = row.as_chunks().0.get(c).copied().map_or(0.0, f32::from_ne_bytes);
-            }
+    }
+    for (c, column) in rest_columns.into_iter().enumerate() {
+        for (to, row) in column.iter_mut().zip(rest.chunks(stride.max(1))) {
+            *to = row.as_chunks().0.get(c).copied().map_or(0.0, f32::from_ne_bytes);
         }
     }
 }
@@ -385,36 +390,27 @@ fn gather<const K: usize>(bytes: &[u8], stride: usize, columns: [&mut [f32]; K])
 /// From columns to rows, whose other bytes stay.
 #[inline(never)]
 fn scatter<const K: usize>(columns: [&[f32]; K], bytes: &mut [u8], stride: usize) {
+    let whole = whole_rows::<K>(bytes, stride);
+    let Some((rows, rest)) = bytes.split_at_mut_checked(whole * stride) else { return };
+    let Some((columns, rest_columns)) = <Columns<K> as Input>::split(columns, whole) else {
+        return;
+    };
     if stride == 4 * K {
-        return scatter_rows::<K, K>(columns, bytes);
-    }
-    if stride == 16 {
-        return scatter_rows::<4, K>(columns, bytes);
-    }
-    // The last row may end before a whole stride.
-    let whole = if stride > 16 { bytes.len() / stride } else { 0 };
-    if let Some((rows, rest)) = bytes.split_at_mut_checked(whole * stride)
-        && let Some((columns, rest_columns)) = <Columns<K> as Input>::split(columns, whole)
-    {
+        let rows = rows.as_chunks_mut().0.as_chunks_mut().0;
+        map::<Columns<K>, Rows<K, K>>(Transpose, columns, rows);
+    } else if stride == QUAD {
+        let rows = rows.as_chunks_mut().0.as_chunks_mut().0;
+        map::<Columns<K>, Rows<4, K>>(Transpose, columns, rows);
+    } else {
         map::<Columns<K>, Strided<K>>(Transpose, columns, RowSliceMut { bytes: rows, stride });
-        for (c, column) in rest_columns.into_iter().enumerate() {
-            for (from, row) in column.iter().zip(rest.chunks_mut(stride.max(1))) {
-                if let Some(to) = row.as_chunks_mut().0.get_mut(c) {
-                    *to = from.to_ne_bytes();
-                }
+    }
+    for (c, column) in rest_columns.into_iter().enumerate() {
+        for (from, row) in column.iter().zip(rest.chunks_mut(stride.max(1))) {
+            if let Some(to) = row.as_chunks_mut().0.get_mut(c) {
+                *to = from.to_ne_bytes();
             }
         }
     }
-}
-
-fn gather_rows<const N: usize, const K: usize>(bytes: &[u8], columns: [&mut [f32]; K], len: usize) {
-    let rows = bytes.as_chunks().0.as_chunks().0.get(..len).unwrap_or_default();
-    map::<Rows<N, K>, Columns<K>>(Transpose, rows, columns);
-}
-
-fn scatter_rows<const N: usize, const K: usize>(columns: [&[f32]; K], bytes: &mut [u8]) {
-    let rows = bytes.as_chunks_mut().0.as_chunks_mut().0;
-    map::<Columns<K>, Rows<N, K>>(Transpose, columns, rows);
 }
 
 /// Between rows and columns.
@@ -477,16 +473,13 @@ mod tests {
         (0..len).flat_map(|i| (i as u16).to_le_bytes()).collect()
     }
 
-    /// Rows, between which is 0xEE. The last one ends with its z, but for those of 16 bytes, which are whole.
+    /// Rows, between which is 0xEE. The last one ends with its z.
     fn rows(len: usize, stride: usize, filled: bool) -> Vec<u8> {
         let mut bytes = Vec::new();
         for i in 0..len {
             bytes.resize(i * stride, 0xEE);
             let floats = vector(i).into_iter().flat_map(f32::to_ne_bytes);
             bytes.extend(floats.map(|byte| if filled { byte } else { 0xDD }));
-        }
-        if stride == 16 {
-            bytes.resize(16 * len, 0xEE);
         }
         bytes
     }
