@@ -80,7 +80,7 @@ fn read(
 
 /// Without comments, and without the unit tests at the foot.
 fn without_tests(source: &str) -> String {
-    let end = source.find("#[cfg(test)]\nmod tests").unwrap_or(source.len());
+    let end = source.find("\nmod tests {").unwrap_or(source.len());
     let lines = source[..end].lines().map(|line| line.split("//").next().unwrap_or(""));
     lines.collect::<Vec<_>>().join("\n")
 }
