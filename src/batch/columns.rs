@@ -24,8 +24,8 @@ pub(crate) trait Input: 'static {
         slices: Self::Slices<'a>,
         at: usize,
     ) -> Option<(Self::Slices<'a>, Self::Slices<'a>)>;
-    /// The elements, repeated until the buffer is full.
-    fn pad(slices: Self::Slices<'_>) -> Self::Buffer;
+    /// The elements, repeated until there is one for each lane.
+    fn pad(slices: Self::Slices<'_>, lanes: usize) -> Self::Buffer;
     /// The first `len` elements of a buffer.
     fn slices(buffer: &Self::Buffer, len: usize) -> Option<Self::Slices<'_>>;
     /// The slices as `count` blocks: then the compiler knows that indices below it are in bounds.
@@ -89,10 +89,10 @@ impl<const K: usize> Input for Columns<K> {
         }
         Some((first, others))
     }
-    fn pad(slices: [&[f32]; K]) -> [[f32; MAX_LANES]; K] {
+    fn pad(slices: [&[f32]; K], lanes: usize) -> [[f32; MAX_LANES]; K] {
         let mut buffer = [[0.0; MAX_LANES]; K];
         for (to, from) in buffer.iter_mut().zip(slices) {
-            repeat(from, to);
+            repeat(from, to, lanes);
         }
         buffer
     }
@@ -213,9 +213,9 @@ impl<K: CodeKind> Input for CodeColumn<K> {
     ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
         codes.split_at(at)
     }
-    fn pad(codes: CodeSlice<'_>) -> CodeBuffer {
+    fn pad(codes: CodeSlice<'_>, lanes: usize) -> CodeBuffer {
         let mut buffer = CodeBuffer { bytes: [0; MAX_CODE * MAX_LANES], size: codes.size };
-        repeat(codes.bytes, &mut buffer.bytes);
+        repeat(codes.bytes, &mut buffer.bytes, lanes * codes.size);
         buffer
     }
     fn slices(buffer: &CodeBuffer, len: usize) -> Option<CodeSlice<'_>> {
@@ -299,9 +299,9 @@ impl<const N: usize, const C: usize> Input for Rows<N, C> {
     ) -> Option<(<Self as Input>::Slices<'a>, <Self as Input>::Slices<'a>)> {
         rows.split_at_checked(at)
     }
-    fn pad(rows: &[Row<N>]) -> [Row<N>; MAX_LANES] {
+    fn pad(rows: &[Row<N>], lanes: usize) -> [Row<N>; MAX_LANES] {
         let mut buffer = [[[0; 4]; N]; MAX_LANES];
-        repeat(rows, &mut buffer);
+        repeat(rows, &mut buffer, lanes);
         buffer
     }
     fn slices(buffer: &[Row<N>; MAX_LANES], len: usize) -> Option<&[Row<N>]> {
@@ -333,7 +333,7 @@ impl<const N: usize, const C: usize> Output for Rows<N, C> {
         rows.split_at_mut_checked(at)
     }
     fn pad(rows: &&mut [Row<N>]) -> [Row<N>; MAX_LANES] {
-        <Self as Input>::pad(rows)
+        <Self as Input>::pad(rows, rows.len())
     }
     fn slices(buffer: &mut [Row<N>; MAX_LANES], len: usize) -> Option<&mut [Row<N>]> {
         buffer.get_mut(..len)
@@ -392,7 +392,7 @@ impl<const C: usize> Input for Strided<C> {
         let (first, others) = rows.bytes.split_at_checked(at * rows.stride)?;
         Some((RowSlice { bytes: first, ..rows }, RowSlice { bytes: others, ..rows }))
     }
-    fn pad(rows: RowSlice<'_>) -> [u8; QUAD * MAX_LANES] {
+    fn pad(rows: RowSlice<'_>, _: usize) -> [u8; QUAD * MAX_LANES] {
         let mut buffer = [0; QUAD * MAX_LANES];
         let rows = rows.bytes.chunks(rows.stride.max(1));
         for (to, from) in buffer.chunks_mut(QUAD).zip(rows) {
@@ -496,7 +496,7 @@ impl Input for Indices {
         let others = Indices { first: first.wrapping_add(at as u32), len: len.checked_sub(at)? };
         Some((Indices { first, len: at }, others))
     }
-    fn pad(indices: Self) -> Self {
+    fn pad(indices: Self, _: usize) -> Self {
         indices
     }
     fn slices(indices: &Self, len: usize) -> Option<Self> {
@@ -533,8 +533,8 @@ impl<A: Input, B: Input> Input for (A, B) {
         let ((a, other_a), (b, other_b)) = (A::split(a, at)?, B::split(b, at)?);
         Some(((a, b), (other_a, other_b)))
     }
-    fn pad((a, b): Self::Slices<'_>) -> Self::Buffer {
-        (A::pad(a), B::pad(b))
+    fn pad((a, b): Self::Slices<'_>, lanes: usize) -> Self::Buffer {
+        (A::pad(a, lanes), B::pad(b, lanes))
     }
     fn slices((a, b): &Self::Buffer, len: usize) -> Option<Self::Slices<'_>> {
         Some((A::slices(a, len)?, B::slices(b, len)?))
@@ -594,10 +594,10 @@ impl<A: Output, B: Output> Output for (A, B) {
     }
 }
 
-/// Fills a slice with the elements, again and again.
-fn repeat<T: Copy>(from: &[T], to: &mut [T]) {
-    for (to, from) in to.iter_mut().zip(from.iter().cycle()) {
-        *to = *from;
+/// Fills the first `len` elements of a slice with others, again and again.
+fn repeat<T: Copy>(from: &[T], to: &mut [T], len: usize) {
+    for to in to.get_mut(..len).unwrap_or_default().chunks_mut(from.len().max(1)) {
+        copy(from, to);
     }
 }
 
@@ -750,10 +750,10 @@ mod tests {
 
     #[test]
     fn padding_repeats_the_elements() {
-        let padded = <Columns<1> as Input>::pad([&[5.0, 6.0, 7.0]]);
+        let padded = <Columns<1> as Input>::pad([&[5.0, 6.0, 7.0]], 7);
         assert_eq!(padded[0][..7], [5.0, 6.0, 7.0, 5.0, 6.0, 7.0, 5.0]);
         let codes = CodeSlice { bytes: &[1, 2, 3, 4], size: 2 };
-        let buffer = <CodeColumn<[u8; 2]> as Input>::pad(codes);
+        let buffer = <CodeColumn<[u8; 2]> as Input>::pad(codes, 3);
         let padded = <CodeColumn<[u8; 2]> as Input>::slices(&buffer, 3).unwrap();
         assert_eq!((padded.bytes, padded.size), (&[1, 2, 3, 4, 1, 2][..], 2));
     }

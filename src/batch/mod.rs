@@ -91,7 +91,7 @@ fn run_padded<I: Input, O: Output>(
     let Some((output_blocks, output_rest)) = O::split(output, len - rest_len) else { return };
     kernel(blocks, output_blocks, len >> lanes.trailing_zeros());
     if rest_len > 0 {
-        let block = I::pad(rest);
+        let block = I::pad(rest, lanes);
         let mut output_block = O::pad(&output_rest);
         if let (Some(block), Some(output)) =
             (I::slices(&block, lanes), O::slices(&mut output_block, lanes))
