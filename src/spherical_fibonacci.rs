@@ -1,6 +1,6 @@
 //! Spherical Fibonacci points in any number.
 
-use crate::batch::layout::{Codes, CodesMut};
+use crate::batch::layout::{self, Codes, CodesMut};
 use crate::error::LengthMismatch;
 use crate::formula::fibonacci::Fibonacci;
 use crate::formula::{Formula, Kernels};
@@ -65,7 +65,9 @@ impl SphericalFibonacci {
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
     pub fn encode_soa(self, v: Soa<'_>, indices: &mut [u32]) -> Result<(), LengthMismatch> {
         LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), indices.len())?;
-        Kernels::encode(&self.0, v.into(), CodesMut::native(indices));
+        layout::encode(v.into(), CodesMut::native(indices), &|v, codes| {
+            Kernels::encode(&self.0, v, codes);
+        });
         Ok(())
     }
 
@@ -75,7 +77,9 @@ impl SphericalFibonacci {
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
     pub fn decode_soa(self, indices: &[u32], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
         LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), indices.len())?;
-        Kernels::decode(&self.0, Codes::native(indices), v.into());
+        layout::decode(Codes::native(indices), v.into(), &|codes, v, fence| {
+            Kernels::decode(&self.0, codes, v, fence);
+        });
         Ok(())
     }
 }

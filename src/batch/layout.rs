@@ -98,6 +98,7 @@ impl<'a> Codes<'a> {
     }
 
     /// Whether their bytes are little-endian.
+    #[inline]
     pub(crate) fn is_direct(self) -> bool {
         cfg!(target_endian = "little") || self.native == 1
     }
@@ -142,6 +143,7 @@ impl<'a> CodesMut<'a> {
     }
 
     /// Lets a kernel write codes.
+    #[inline]
     pub(crate) fn write(self, kernel: impl FnOnce(CodeSliceMut<'_>)) {
         let CodeSliceMut { bytes, size } = self.codes;
         kernel(CodeSliceMut { bytes: &mut *bytes, size });
@@ -149,8 +151,8 @@ impl<'a> CodesMut<'a> {
     }
 }
 
-/// Encodes vectors of any layout.
-#[inline(never)]
+/// Encodes vectors of any layout. Inlined, so that a program has no code for layouts it does not use.
+#[inline]
 pub(crate) fn encode<const K: usize>(
     vectors: Vectors<'_, K>,
     codes: CodesMut<'_>,
@@ -158,10 +160,20 @@ pub(crate) fn encode<const K: usize>(
 ) {
     match vectors {
         Vectors::Columns(columns) => codes.write(|codes| kernel(columns, codes)),
-        Vectors::Rows { .. } if codes.len() <= FEW => {
-            encode_parts::<K, FEW>(vectors, codes, kernel);
-        }
-        Vectors::Rows { .. } => encode_parts::<K, MANY>(vectors, codes, kernel),
+        Vectors::Rows { .. } => encode_rows(vectors, codes, kernel),
+    }
+}
+
+#[inline(never)]
+fn encode_rows<const K: usize>(
+    vectors: Vectors<'_, K>,
+    codes: CodesMut<'_>,
+    kernel: &dyn Fn([&[f32]; K], CodeSliceMut<'_>),
+) {
+    if codes.len() <= FEW {
+        encode_parts::<K, FEW>(vectors, codes, kernel);
+    } else {
+        encode_parts::<K, MANY>(vectors, codes, kernel);
     }
 }
 
@@ -181,8 +193,8 @@ fn encode_parts<const K: usize, const PART: usize>(
 /// What decodes to columns. Its caller drops the fence.
 type DecodeKernel<'k, const K: usize> = &'k dyn Fn(CodeSlice<'_>, [&mut [f32]; K], &Fence);
 
-/// Decodes to vectors of any layout.
-#[inline(never)]
+/// Decodes to vectors of any layout. Inlined as [`encode`].
+#[inline]
 pub(crate) fn decode<const K: usize>(
     codes: Codes<'_>,
     vectors: VectorsMut<'_, K>,
@@ -192,8 +204,20 @@ pub(crate) fn decode<const K: usize>(
         VectorsMut::Columns(columns) if codes.is_direct() => {
             decode_columns(codes.codes, columns, kernel);
         }
-        _ if codes.len() <= FEW => decode_parts::<K, FEW>(codes, vectors, kernel),
-        _ => decode_parts::<K, MANY>(codes, vectors, kernel),
+        _ => decode_rows(codes, vectors, kernel),
+    }
+}
+
+#[inline(never)]
+fn decode_rows<const K: usize>(
+    codes: Codes<'_>,
+    vectors: VectorsMut<'_, K>,
+    kernel: DecodeKernel<'_, K>,
+) {
+    if codes.len() <= FEW {
+        decode_parts::<K, FEW>(codes, vectors, kernel);
+    } else {
+        decode_parts::<K, MANY>(codes, vectors, kernel);
     }
 }
 

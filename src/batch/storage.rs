@@ -34,13 +34,13 @@ pub(crate) const MAX_CODE: usize = 12;
 
 /// Little-endian codes of `size` bytes, without gaps.
 #[derive(Clone, Copy)]
-pub(crate) struct CodeSlice<'a> {
+pub struct CodeSlice<'a> {
     pub(crate) bytes: &'a [u8],
     pub(crate) size: usize,
 }
 
 /// [`CodeSlice`] to write.
-pub(crate) struct CodeSliceMut<'a> {
+pub struct CodeSliceMut<'a> {
     pub(crate) bytes: &'a mut [u8],
     pub(crate) size: usize,
 }

@@ -3,9 +3,10 @@
 use super::format::Visitor;
 use super::sealed::Batch;
 use super::{Axis, Codec, codec_table};
-use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{from_native, to_native};
+use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::storage::{CodeSlice, CodeSliceMut, from_native, to_native};
 use crate::formula::{Formula, Kernels, Source, kernels};
+use crate::simd::stream::Fence;
 
 #[cfg(feature = "cartesian")]
 use crate::formula::cartesian::{BestFit, Floats, Xyz, Xyz16};
@@ -137,20 +138,20 @@ macro_rules! define_codecs {
 
                 impl Batch for $name {
                     #[inline]
-                    fn encode_batch(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                        KERNELS.encode(vectors, codes);
+                    fn encode_columns(v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+                        KERNELS.encode(v, codes);
                     }
                     #[inline]
-                    fn encode_batch_precise(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                        KERNELS.encode_precise(vectors, codes);
+                    fn encode_columns_precise(v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+                        KERNELS.encode_precise(v, codes);
                     }
                     #[inline]
-                    fn decode_batch(codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
-                        KERNELS.decode(codes, vectors);
+                    fn decode_columns(codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence) {
+                        KERNELS.decode(codes, v, fence);
                     }
                     #[inline]
-                    fn mirror_batch(codes: CodesMut<'_>, flips: [bool; 3]) {
-                        KERNELS.mirror(codes, flips);
+                    fn mirror_codes(from: CodeSlice<'_>, to: CodeSliceMut<'_>, flips: [bool; 3]) {
+                        KERNELS.mirror(from, to, flips);
                     }
                 }
 
@@ -239,15 +240,21 @@ macro_rules! define_codecs {
             }
 
             pub(super) fn encode_batch(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                match self {$($(#[$gate] Format::$name => $name::encode_batch(vectors, codes),)*)*}
+                layout::encode(vectors, codes, &|v, codes| match self {
+                    $($(#[$gate] Format::$name => $name::encode_columns(v, codes),)*)*
+                });
             }
 
             pub(super) fn encode_batch_precise(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                match self {$($(#[$gate] Format::$name => $name::encode_batch_precise(vectors, codes),)*)*}
+                layout::encode(vectors, codes, &|v, codes| match self {
+                    $($(#[$gate] Format::$name => $name::encode_columns_precise(v, codes),)*)*
+                });
             }
 
             pub(crate) fn decode_batch(self, codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
-                match self {$($(#[$gate] Format::$name => $name::decode_batch(codes, vectors),)*)*}
+                layout::decode(codes, vectors, &|codes, v, fence| match self {
+                    $($(#[$gate] Format::$name => $name::decode_columns(codes, v, fence),)*)*
+                });
             }
         }
     };

@@ -232,13 +232,33 @@ impl Axis {
 }
 
 pub(crate) mod sealed {
-    use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
+    use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+    use crate::batch::storage::{CodeSlice, CodeSliceMut};
+    use crate::simd::stream::Fence;
 
-    /// The batch functions of a codec, for any layout of vectors and codes.
+    /// The kernels of a codec, and by them its batches in any layout. What is inlined is a call.
     pub trait Batch {
-        fn encode_batch(vectors: Vectors<'_, 3>, codes: CodesMut<'_>);
-        fn encode_batch_precise(vectors: Vectors<'_, 3>, codes: CodesMut<'_>);
-        fn decode_batch(codes: Codes<'_>, vectors: VectorsMut<'_, 3>);
-        fn mirror_batch(codes: CodesMut<'_>, flips: [bool; 3]);
+        fn encode_columns(v: [&[f32]; 3], codes: CodeSliceMut<'_>);
+        fn encode_columns_precise(v: [&[f32]; 3], codes: CodeSliceMut<'_>);
+        /// Whoever makes the fence drops it before others may read the vectors.
+        fn decode_columns(codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence);
+        fn mirror_codes(from: CodeSlice<'_>, to: CodeSliceMut<'_>, flips: [bool; 3]);
+
+        #[inline]
+        fn encode_batch(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+            layout::encode(vectors, codes, &Self::encode_columns);
+        }
+        #[inline]
+        fn encode_batch_precise(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+            layout::encode(vectors, codes, &Self::encode_columns_precise);
+        }
+        #[inline]
+        fn decode_batch(codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
+            layout::decode(codes, vectors, &Self::decode_columns);
+        }
+        #[inline]
+        fn mirror_batch(codes: CodesMut<'_>, flips: [bool; 3]) {
+            layout::map_codes(codes, &|from, to| Self::mirror_codes(from, to, flips));
+        }
     }
 }

@@ -30,9 +30,9 @@ pub(crate) mod support;
 pub(crate) mod xy_only;
 
 use crate::batch::columns::{CodeColumn, Columns};
-use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{CodeKind, CodeShape, ShapeIn, Word};
+use crate::batch::storage::{CodeKind, CodeShape, CodeSlice, CodeSliceMut, ShapeIn, Word};
 use crate::batch::{Kernel, map, run};
+use crate::simd::stream::Fence;
 use crate::simd::{Simd, Use, Vec3};
 use support::sanitize::sanitize;
 use support::sign::mirror_vector;
@@ -164,69 +164,56 @@ where
     }
 }
 
-/// The kernels of a formula, or of one codec, in any layout. The functions are neither generic nor
+/// The kernels of a formula, or of one codec, over columns. The functions are neither generic nor
 /// inlined, so that they are compiled here, once, and not in the crates that call them.
-pub trait Kernels: Sync + 'static {
-    /// [`Codec::encode_soa`](crate::Codec::encode_soa) and the like.
-    fn encode(&self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>);
-    /// [`Codec::encode_soa_precise`](crate::Codec::encode_soa_precise) and the like.
-    fn encode_precise(&self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>);
-    /// [`Codec::decode_soa`](crate::Codec::decode_soa) and the like.
-    fn decode(&self, codes: Codes<'_>, vectors: VectorsMut<'_, 3>);
-    /// [`Codec::mirror_slice`](crate::Codec::mirror_slice) and the like.
-    fn mirror(&self, codes: CodesMut<'_>, flips: [bool; 3]);
+pub(crate) trait Kernels: Sync + 'static {
+    fn encode(&self, v: [&[f32]; 3], codes: CodeSliceMut<'_>);
+    fn encode_precise(&self, v: [&[f32]; 3], codes: CodeSliceMut<'_>);
+    /// Whoever makes the fence drops it before others may read the vectors.
+    fn decode(&self, codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence);
+    fn mirror(&self, from: CodeSlice<'_>, to: CodeSliceMut<'_>, flips: [bool; 3]);
 }
 
 /// Implements [`Kernels`] by the kind of the codes: `Words`, or bytes. A second formula does what
 /// few need, so that it is not compiled twice.
 macro_rules! kernels {
     ($($source:ty: $codes:ty $(, $formula:expr)?);* $(;)?) => { $(
-        impl $crate::formula::Kernels for $source {
-            #[inline(never)]
-            fn encode(
-                &self,
-                vectors: $crate::batch::layout::Vectors<'_, 3>,
-                codes: $crate::batch::layout::CodesMut<'_>,
-            ) {
-                $crate::formula::encode::<_, $codes, false>(*self, vectors, codes);
+        const _: () = {
+            use $crate::batch::storage::{CodeSlice, CodeSliceMut};
+            use $crate::formula::Kernels;
+            use $crate::simd::stream::Fence;
+
+            impl Kernels for $source {
+                #[inline(never)]
+                fn encode(&self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+                    $crate::formula::encode::<_, $codes, false>(*self, v, codes);
+                }
+                #[inline(never)]
+                fn decode(&self, codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence) {
+                    $crate::formula::decode::<_, $codes>(*self, codes, v, fence);
+                }
+                kernels!(@rare $codes $(, $formula)?);
             }
-            #[inline(never)]
-            fn decode(
-                &self,
-                codes: $crate::batch::layout::Codes<'_>,
-                vectors: $crate::batch::layout::VectorsMut<'_, 3>,
-            ) {
-                $crate::formula::decode::<_, $codes>(*self, codes, vectors);
-            }
-            kernels!(@rare $codes $(, $formula)?);
-        }
+        };
     )* };
     (@rare $codes:ty) => {
         #[inline(never)]
-        fn encode_precise(
-            &self,
-            vectors: $crate::batch::layout::Vectors<'_, 3>,
-            codes: $crate::batch::layout::CodesMut<'_>,
-        ) {
-            $crate::formula::encode::<_, $codes, true>(*self, vectors, codes);
+        fn encode_precise(&self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+            $crate::formula::encode::<_, $codes, true>(*self, v, codes);
         }
         #[inline(never)]
-        fn mirror(&self, codes: $crate::batch::layout::CodesMut<'_>, flips: [bool; 3]) {
-            $crate::formula::mirror::<_, $codes>(*self, codes, flips);
+        fn mirror(&self, from: CodeSlice<'_>, to: CodeSliceMut<'_>, flips: [bool; 3]) {
+            $crate::formula::mirror::<_, $codes>(*self, from, to, flips);
         }
     };
     (@rare $codes:ty, $formula:expr) => {
         #[inline]
-        fn encode_precise(
-            &self,
-            vectors: $crate::batch::layout::Vectors<'_, 3>,
-            codes: $crate::batch::layout::CodesMut<'_>,
-        ) {
-            $crate::formula::Kernels::encode_precise(&$formula, vectors, codes);
+        fn encode_precise(&self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+            Kernels::encode_precise(&$formula, v, codes);
         }
         #[inline]
-        fn mirror(&self, codes: $crate::batch::layout::CodesMut<'_>, flips: [bool; 3]) {
-            $crate::formula::Kernels::mirror(&$formula, codes, flips);
+        fn mirror(&self, from: CodeSlice<'_>, to: CodeSliceMut<'_>, flips: [bool; 3]) {
+            Kernels::mirror(&$formula, from, to, flips);
         }
     };
 }
@@ -235,35 +222,37 @@ pub(crate) use kernels;
 #[inline]
 pub(crate) fn encode<S: Source, K, const PRECISE: bool>(
     source: S,
-    vectors: Vectors<'_, 3>,
-    codes: CodesMut<'_>,
+    v: [&[f32]; 3],
+    codes: CodeSliceMut<'_>,
 ) where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
     if PRECISE && S::Formula::ONE_ENCODER {
-        return encode::<S, K, false>(source, vectors, codes);
+        return encode::<S, K, false>(source, v, codes);
     }
-    layout::encode(vectors, codes, &|vectors, codes| {
-        map::<Columns<3>, CodeColumn<K>>(Encode::<S, PRECISE>(source), vectors, codes);
-    });
+    map::<Columns<3>, CodeColumn<K>>(Encode::<S, PRECISE>(source), v, codes);
 }
 
 #[inline(always)]
-pub(crate) fn decode<S: Source, K>(source: S, codes: Codes<'_>, vectors: VectorsMut<'_, 3>)
-where
+pub(crate) fn decode<S: Source, K>(
+    source: S,
+    codes: CodeSlice<'_>,
+    v: [&mut [f32]; 3],
+    fence: &Fence,
+) where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
-    layout::decode(codes, vectors, &|codes, vectors, fence| {
-        run::<CodeColumn<K>, Columns<3>>(Decode(source), codes, vectors, fence);
-    });
+    run::<CodeColumn<K>, Columns<3>>(Decode(source), codes, v, fence);
 }
 
 #[inline(always)]
-pub(crate) fn mirror<S: Source, K>(source: S, codes: CodesMut<'_>, flips: [bool; 3])
-where
+pub(crate) fn mirror<S: Source, K>(
+    source: S,
+    from: CodeSlice<'_>,
+    to: CodeSliceMut<'_>,
+    flips: [bool; 3],
+) where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
-    layout::map_codes(codes, &|from, to| {
-        map::<CodeColumn<K>, CodeColumn<K>>(Mirror(source, flips), from, to);
-    });
+    map::<CodeColumn<K>, CodeColumn<K>>(Mirror(source, flips), from, to);
 }

@@ -21,9 +21,6 @@ pub(crate) use vec3::{Vec3, map_vec, map2, map3, map4};
 /// 1.5 * 2^23: adding it rounds to an integer, ties to even, in the low mantissa bits.
 const ROUNDER: f32 = 12_582_912.0;
 
-/// Largest number of components of a vector that lanes transpose with shuffles.
-pub(crate) const MAX_SHUFFLED: usize = 4;
-
 /// Largest number of lanes.
 pub(crate) const MAX_LANES: usize = 16;
 
@@ -117,7 +114,7 @@ pub(crate) trait Simd:
         Self::store_int(int, block, |[a, b, c], i| [*a, *b, *c, _] = i.to_le_bytes());
     }
     /// The first `C` components of a block of rows of `N` floats in native byte order, at most
-    /// [`MAX_SHUFFLED`].
+    /// four.
     #[inline(always)]
     fn load_rows<const N: usize, const C: usize>(block: &Self::Block<[[u8; 4]; N]>) -> [Self; C] {
         let mut columns = [Self::from(0.0); C];
@@ -335,17 +332,6 @@ pub(crate) trait SimdMask:
     fn splat(value: bool) -> Self;
     /// Whether it holds in any lane.
     fn any(self) -> bool;
-}
-
-/// Calls `f` with 0 to N - 1. An iterator's checks in debug builds would keep the loop from being
-/// vectorised.
-#[inline(always)]
-fn each<const N: usize>(mut f: impl FnMut(usize)) {
-    let mut i = 0;
-    while i < N {
-        f(i);
-        i += 1;
-    }
 }
 
 /// One lane of [`Simd::gather`].

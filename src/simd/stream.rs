@@ -18,7 +18,7 @@ pub(crate) const ALIGNMENT: usize = 64;
 
 /// Whether stores stream. Other threads may see streaming stores in any order until the fence is
 /// dropped. So whoever makes a fence keeps the destination borrowed until then, and drops the fence.
-pub(crate) struct Fence {
+pub struct Fence {
     streams: bool,
 }
 

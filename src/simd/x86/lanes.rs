@@ -8,12 +8,12 @@ use fearless_simd::{
     u8x64, u32x8, u32x16,
 };
 
-use super::Token;
 use super::mask::{Bits8, Compare};
 use super::shuffle::{Shuffle, dense, first, spread};
+use super::{Token, each};
 use crate::simd::operators::{operators, scalar_operators};
 use crate::simd::stream::x86::Streaming;
-use crate::simd::{Simd, SimdInt, SimdMask, each, look_up, look_up3, look_up4};
+use crate::simd::{Simd, SimdInt, SimdMask, look_up, look_up3, look_up4};
 
 /// A vector of the elements of an array. `simd_from` would copy them with checks in debug builds.
 macro_rules! from_array {

@@ -54,3 +54,14 @@ pub(super) fn dispatch<L: BatchLoop>(batch: L) -> Option<L> {
     }
     None
 }
+
+/// Calls `f` with 0 to N - 1. An iterator's checks in debug builds would keep the loop from being
+/// vectorised.
+#[inline(always)]
+fn each<const N: usize>(mut f: impl FnMut(usize)) {
+    let mut i = 0;
+    while i < N {
+        f(i);
+        i += 1;
+    }
+}

@@ -1,6 +1,7 @@
 //! Patterns of byte shuffles between vectors and rows of components.
 
-use crate::simd::MAX_SHUFFLED;
+/// Largest number of components of a vector that lanes transpose with shuffles.
+const MAX_SHUFFLED: usize = 4;
 
 /// Shuffles from or to `LANES` vectors of `N` components, of which the first `C` count. In memory they
 /// are `N` rows of `LANES` components. Empty beyond [`MAX_SHUFFLED`].
