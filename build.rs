@@ -13,7 +13,7 @@ fn main() {
     fs::write(Path::new(&out).join("best_fit.bin"), best_fit()).expect("OUT_DIR is writable");
 }
 
-/// CrytekBFN24's lengths: see src/formula/cartesian.rs.
+/// CrytekBFN24's lengths: see src/formula/cartesian/best_fit.rs.
 fn best_fit() -> Vec<u8> {
     let mut table = Vec::with_capacity(512 * 512);
     for j in 0..512 {

@@ -35,32 +35,13 @@
 
 use core::marker::PhantomData;
 
-use crate::batch::columns::{CodeColumn, Columns};
-use crate::batch::layout::{self, Codes, PART, VectorsMut};
-use crate::batch::storage::{Words, from_native};
-use crate::batch::{Kernel, run};
+use crate::batch::layout::{Codes, PART, VectorsMut};
+use crate::batch::storage::from_native;
 use crate::codec::{Codec, Format, codec_table};
 use crate::error::LengthMismatch;
-use crate::formula::Symmetric;
-#[cfg(feature = "cartesian")]
-use crate::formula::cartesian::Xyz;
-#[cfg(feature = "polyhedral")]
-use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
-#[cfg(feature = "disk")]
-use crate::formula::disk::{
-    Disk,
-    Projection::{EqArea, EqDist, Stereo},
-    Stretch::{Concentric, Ellipse, Plain},
-};
-#[cfg(feature = "cartesian")]
-use crate::formula::xy_only::{XyOnly, XyUnorm};
-#[cfg(feature = "octahedral")]
-use crate::formula::{
-    hemi_oct::HemiOct,
-    oct::{Central, EqualArea, Oct, Warped},
-    octant::Octant,
-};
-use crate::simd::{I32x1, Simd, Use, Vec3, look_up3};
+use crate::formula::names::*;
+use crate::formula::octant_table::{Mirrored, OctantKernels};
+use crate::simd::look_up3;
 use crate::vector::SoaMut;
 
 /// Every decoded vector of the codec `C`, which has at most 16 bits.
@@ -262,77 +243,6 @@ pub trait SignSymmetric: Codec {
     fn look_up(octant: &[[f32; 3]], code: Self::Code) -> [f32; 3];
     #[doc(hidden)]
     fn look_up_batch(octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>);
-}
-
-/// A code's vector, from a table of its octant.
-#[derive(Clone, Copy)]
-struct Mirrored<'t, F>(F, &'t [[f32; 3]]);
-
-impl<F: Symmetric> Mirrored<'_, F> {
-    #[inline(always)]
-    fn decode<V: Simd>(&self, code: V::Int) -> Vec3<V> {
-        let (index, flips) = self.0.octant_index::<V>(code);
-        let Vec3 { x, y, z } = Vec3::from(V::gather3(self.1, index));
-        Vec3::new(V::select(flips.x, -x, x), V::select(flips.y, -y, y), V::select(flips.z, -z, z))
-    }
-}
-
-impl<F: Symmetric> Kernel<CodeColumn<Words>, Columns<3>> for Mirrored<'_, F> {
-    // Most of the time goes into loads of single elements.
-    const USE: Use = Use::Rare;
-
-    #[inline(always)]
-    fn run<V: Simd>(self, code: V::Int) -> [V; 3] {
-        self.decode::<V>(code).to_array()
-    }
-}
-
-/// Tables of a formula, compiled here: see [`Kernels`].
-pub(crate) trait OctantKernels {
-    /// Writes the vectors of an octant, those of all codes of `bits` bits of which nothing is negated.
-    fn fill(&self, bits: u32, octant: &mut [[f32; 3]]);
-    /// Decodes by a table.
-    fn look_up(&self, octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>);
-}
-
-macro_rules! octant_kernels {
-    ($($formula:ty),* $(,)?) => { $(
-        impl OctantKernels for $formula {
-            #[inline(never)]
-            fn fill(&self, bits: u32, octant: &mut [[f32; 3]]) {
-                fill_octant(*self, bits, octant);
-            }
-            #[inline(never)]
-            fn look_up(&self, octant: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
-                let formula = *self;
-                layout::decode(codes, vectors, &|codes, v, fence| {
-                    run::<CodeColumn<Words>, Columns<3>>(Mirrored(formula, octant), codes, v, fence);
-                });
-            }
-        }
-    )* };
-}
-
-#[cfg(feature = "octahedral")]
-octant_kernels!(Oct<Central>, Oct<Warped>, Oct<EqualArea>, HemiOct, Octant);
-#[cfg(feature = "cartesian")]
-octant_kernels!(Xyz, XyOnly<XyUnorm>);
-#[cfg(feature = "disk")]
-octant_kernels!(Disk);
-#[cfg(feature = "polyhedral")]
-octant_kernels!(Cube<Linear>, Cube<WarpedFace>, AngularCube);
-
-#[inline(always)]
-fn fill_octant<F: Symmetric>(formula: F, bits: u32, octant: &mut [[f32; 3]]) {
-    for code in 0..1 << bits {
-        let (index, Vec3 { x, y, z }) = formula.octant_index::<f32>(I32x1(code));
-        let is_negated = x | y | z;
-        if let Some(v) = octant.get_mut(index.0 as u32 as usize)
-            && !is_negated
-        {
-            *v = formula.decode::<f32>(I32x1(code)).to_array();
-        }
-    }
 }
 
 /// Implements the trait for the rows with the flag `octant`.

@@ -51,8 +51,7 @@ use crate::batch::{Kernel, map};
 use crate::codec::{Codec, Format, codec_table};
 use crate::error::LengthMismatch;
 use crate::formula::Lattice;
-#[cfg(feature = "octahedral")]
-use crate::formula::oct::{Central, Oct};
+use crate::formula::names::*;
 use crate::formula::support::sanitize::sanitize;
 use crate::simd::{I32x1, Simd, SimdInt, Use, Vec3, map3};
 use crate::vector::{Soa, SoaMut};
@@ -151,7 +150,7 @@ impl Dither {
     /// nearest codes would keep their common error, this one's shrinks with the root of their number.
     ///
     /// The error of one vector is up to twice the greatest of [`Codec::encode_precise`]. An axis is kept, and so is any point
-    /// of the lattice but for `f32` rounding, which of 10^6 draws at 32 bits moves some 200. Decoding is that of the codec,
+    /// of the lattice except for `f32` rounding, which of 10^6 draws at 32 bits moves some 200. Decoding is that of the codec,
     /// without dither.
     ///
     /// ```

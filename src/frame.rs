@@ -418,7 +418,7 @@ frame_codecs! {
     ///
     /// Of the angle's 31 bits about 23 survive: `f32` does not carry more. Codes that differ in the others may
     /// decode alike, and are one frame. So only the normal has codes that are not canonical, and
-    /// `encode_precise(decode(code))` is `canonical(code)` but for the angle, which is within 256 of it.
+    /// `encode_precise(decode(code))` is `canonical(code)` except for the angle, which is within 256 of it.
     OctAngle64: u64 = "octangle64", 64 bits,
         normal Format::Oct32.max_error_degrees(), Format::Oct32.max_error_precise_degrees(),
         tangent 0.003776 / 0.002526 degrees, OctAngle::new(32, 31);
@@ -435,7 +435,7 @@ frame_codecs! {
     /// x, y and z.
     ///
     /// Canonical are the codes around their own unit quaternion, which are those that encoders emit.
-    /// `encode_precise(decode(code))` is `canonical(code)`, or another one that decodes alike but for rounding,
+    /// `encode_precise(decode(code))` is `canonical(code)`, or another one that decodes alike up to rounding,
     /// to 2e-6 radians.
     QTangent64: [i16; 4] = "qtangent64", 64 bits,
         normal 0.00468, 0.00434, tangent 0.00468 / 0.00434 degrees, QTangent::new();

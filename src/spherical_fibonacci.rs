@@ -29,7 +29,7 @@ use crate::vector::{Soa, SoaMut};
 pub struct SphericalFibonacci(Fibonacci);
 
 impl SphericalFibonacci {
-    /// So many points: from 1 to 2^24, else `None`.
+    /// A number of points from 1 to 2^24, otherwise `None`.
     #[inline]
     pub const fn new(points: u32) -> Option<Self> {
         if points >= 1 && points <= 1 << 24 {

@@ -1,7 +1,5 @@
 //! The public shapes of data.
 
-use crate::batch::layout::{Vectors, VectorsMut};
-
 /// Vectors to read, as a structure of arrays. All three slices have one element per vector.
 #[derive(Clone, Copy, Debug)]
 pub struct Soa<'a> {
@@ -22,18 +20,4 @@ pub struct SoaMut<'a> {
     pub y: &'a mut [f32],
     /// The z components.
     pub z: &'a mut [f32],
-}
-
-impl<'a> From<Soa<'a>> for Vectors<'a, 3> {
-    #[inline]
-    fn from(v: Soa<'a>) -> Self {
-        Vectors::Columns([v.x, v.y, v.z])
-    }
-}
-
-impl<'a> From<SoaMut<'a>> for VectorsMut<'a, 3> {
-    #[inline]
-    fn from(v: SoaMut<'a>) -> Self {
-        VectorsMut::Columns([v.x, v.y, v.z])
-    }
 }

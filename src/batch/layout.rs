@@ -8,10 +8,11 @@ use super::storage::{CodeSlice, CodeSliceMut, MAX_CODE, copy, swap_if_big_endian
 use super::{Kernel, map};
 use crate::simd::stream::{self, Fence};
 use crate::simd::{Simd, Use};
+use crate::vector::{Soa, SoaMut};
 
 /// Elements that are converted at a time: more where each part costs a check of the processor.
 pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { FEW };
-/// As many, where nothing else needs room.
+/// The same, where nothing else needs room.
 pub(crate) const MANY: usize = if cfg!(feature = "std") { 1024 } else { FEW };
 /// A part of so few that the room for it costs little.
 pub(crate) const FEW: usize = 64;
@@ -70,6 +71,20 @@ impl<'a, const K: usize> VectorsMut<'a, K> {
             bytes: bytemuck::cast_slice_mut(vectors.as_flattened_mut()),
             stride: 4 * N,
         }
+    }
+}
+
+impl<'a> From<Soa<'a>> for Vectors<'a, 3> {
+    #[inline]
+    fn from(v: Soa<'a>) -> Self {
+        Vectors::Columns([v.x, v.y, v.z])
+    }
+}
+
+impl<'a> From<SoaMut<'a>> for VectorsMut<'a, 3> {
+    #[inline]
+    fn from(v: SoaMut<'a>) -> Self {
+        VectorsMut::Columns([v.x, v.y, v.z])
     }
 }
 
@@ -444,7 +459,6 @@ struct Transpose;
 macro_rules! transpose {
     ($([$($generics:tt)*] $from:ty => $to:ty;)*) => { $(
         impl<$($generics)*> Kernel<$from, $to> for Transpose {
-            // It has no shuffles; the compiler does better with a scalar loop.
             const USE: Use = Use::Moves;
 
             #[inline(always)]

@@ -5,37 +5,9 @@ use super::sealed::Batch;
 use super::{Axis, Codec, codec_table};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{CodeSlice, CodeSliceMut, from_native, to_native};
+use crate::formula::names::*;
 use crate::formula::{Formula, Kernels, Source, kernels};
 use crate::simd::stream::Fence;
-
-#[cfg(feature = "cartesian")]
-use crate::formula::cartesian::{BestFit, Floats, Xyz, Xyz16};
-#[cfg(feature = "polyhedral")]
-use crate::formula::cube::{AngularCube, Cube, Linear, WarpedFace};
-#[cfg(feature = "disk")]
-use crate::formula::disk::{
-    Disk,
-    Projection::{EqArea, EqDist, Stereo},
-    Stretch::{Concentric, Ellipse, Plain},
-};
-#[cfg(feature = "polyhedral")]
-use crate::formula::icosphere::Icosphere;
-#[cfg(feature = "cartesian")]
-use crate::formula::xy_only::{XyHalf, XyOnly, XyUnorm};
-#[cfg(feature = "spherical")]
-use crate::formula::{
-    fibonacci::Fibonacci,
-    latlong::{Adaptive, LatLong, Uniform},
-    phi_z::PhiZ,
-    spherical::Spherical,
-};
-#[cfg(feature = "octahedral")]
-use crate::formula::{
-    front_oct::FrontOct,
-    hemi_oct::{HemiOct, SignedOct},
-    oct::{Central, EqualArea, Oct, OctUnorm, Warped},
-    octant::Octant,
-};
 
 /// The kernels of a row: the codec's own if it is `hot`, and otherwise those of its formula.
 macro_rules! row_kernels {

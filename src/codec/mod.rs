@@ -36,7 +36,7 @@ pub(crate) use table::codec_table;
 /// direction mirrored in Z falls below the rim, and so is put on it.
 ///
 /// Where a mirror image is a point of the format, it is exact: doing it twice gives the canonical code again, and negating
-/// is mirroring in X, Y and Z in turn. It is found in integers, without decoding, but for these, which decode, encode
+/// is mirroring in X, Y and Z in turn. It is found in integers, without decoding, except for these, which decode, encode
 /// precisely, and so give the nearest point, in that time:
 ///
 /// - in Z, and negated: HemiOct, XYOnly, frontoct, quadfrontoct and oct-unorm,

@@ -8,7 +8,7 @@
 //!
 //! The nearest point of signed oct is on the own side of the equator: its mirror image is farther.
 //!
-//! Canonical: every direction has one pattern, but for -M-1, which reads as -M, and for points of
+//! Canonical: every direction has one pattern, except for -M-1, which reads as -M, and for points of
 //! signed oct's equator, |u| = M or |w| = M, which count as upper. Survive exactly: +Z, +-X and +-Y,
 //! and in signed oct -Z.
 //!
@@ -16,6 +16,7 @@
 //! 2014; signed oct: White, "Signed Octahedron Normal Encoding", 2017, whose parameters are unorm,
 //! so that it has no +-Z.
 
+use super::octant_table::octant_kernels;
 use super::support::bits::Pair;
 use super::support::closest::{Closest, corners, join, split};
 use super::support::sign::{negate_if, not_if};
@@ -185,6 +186,7 @@ impl Formula for SignedOct {
 }
 
 kernels!(HemiOct: Words; SignedOct: Words);
+octant_kernels!(HemiOct);
 
 #[cfg(test)]
 mod tests {

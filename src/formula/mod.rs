@@ -17,10 +17,12 @@ pub(crate) mod hemi_oct;
 pub(crate) mod icosphere;
 #[cfg(feature = "spherical")]
 pub(crate) mod latlong;
+pub(crate) mod names;
 #[cfg(feature = "octahedral")]
 pub(crate) mod oct;
 #[cfg(feature = "octahedral")]
 pub(crate) mod octant;
+pub(crate) mod octant_table;
 #[cfg(feature = "spherical")]
 pub(crate) mod phi_z;
 #[cfg(feature = "spherical")]

@@ -16,6 +16,7 @@
 //! Source: Baptista, "Higher Accuracy Quantized Normals", GameDev.net, 2000.
 
 use super::oct::{Central, Projection, Steps, nearest_on_octahedron, triangle_index, triangle_len};
+use super::octant_table::octant_kernels;
 use super::support::sign::not_if;
 use super::{Formula, Symmetric, kernels};
 use crate::batch::storage::{Word, Words};
@@ -120,6 +121,7 @@ impl Symmetric for Octant {
 }
 
 kernels!(Octant: Words);
+octant_kernels!(Octant);
 
 #[cfg(test)]
 mod tests {

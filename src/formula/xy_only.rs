@@ -18,6 +18,7 @@
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
 //! 2014.
 
+use super::octant_table::octant_kernels;
 use super::support::bits::Pair;
 use super::support::closest::Closest;
 use super::support::half;
@@ -367,6 +368,7 @@ impl Symmetric for XyOnly<XyUnorm> {
 }
 
 kernels!(XyOnly<XyUnorm>: Words; XyOnly<XyHalf>: Words);
+octant_kernels!(XyOnly<XyUnorm>);
 
 #[cfg(test)]
 mod tests {

@@ -25,7 +25,7 @@ pub(crate) fn sqrt<V: Simd>(x: V) -> V {
     x * inv_sqrt(x)
 }
 
-/// c[0] + c[1] x + c[2] x^2 + ..., by Horner's rule.
+/// `c[0] + c[1] x + c[2] x^2 + ...`, by Horner's rule.
 #[inline(always)]
 pub(crate) fn horner<V: Simd, const N: usize>(x: V, coefficients: [f32; N]) -> V {
     let mut sum = V::splat(coefficients[N - 1]);

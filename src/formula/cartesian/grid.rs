@@ -326,7 +326,7 @@ fn representative_half<V: Simd>(point: Vec3<V::Int>) -> Vec3<V::Int> {
     });
     let divisor = gcd(odd);
     let primitive = map_vec!(values, |c| c / divisor);
-    // So many times, and powers of two, keep all mantissas below 2^11.
+    // Multiples up to this, and powers of two, keep all mantissas below 2^11.
     let room = (divisor * 2047.5 / odd.max_component()).floor();
     let times = inv_sqrt(primitive.length_squared());
     // The least power of two for which that is enough, but none that would cut below 2^-24.

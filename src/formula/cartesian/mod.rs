@@ -29,6 +29,7 @@ mod search;
 pub(crate) use best_fit::BestFit;
 pub(crate) use floats::Floats;
 
+use super::octant_table::octant_kernels;
 use super::support::sign::mirror_point;
 use super::{Code, Formula, Symmetric, kernels};
 use crate::batch::storage::Words;
@@ -161,6 +162,7 @@ impl Symmetric for Xyz {
 }
 
 kernels!(Xyz: Words; Xyz16: [u8; 6]; BestFit: [u8; 3], BestFit::UNORM8; Floats: [u8; 12]);
+octant_kernels!(Xyz);
 
 #[cfg(test)]
 mod tests {

@@ -23,6 +23,7 @@ pub(crate) use angular::AngularCube;
 
 use core::marker::PhantomData;
 
+use super::octant_table::octant_kernels;
 use super::support::bits::snorm_max;
 use super::support::closest::{Closest, corners};
 use super::support::sign::mirror_point;
@@ -191,6 +192,7 @@ impl<W: Spacing> Symmetric for Cube<W> {
 }
 
 kernels!(Cube<Linear>: Words; Cube<WarpedFace>: Words; AngularCube: Words);
+octant_kernels!(Cube<Linear>, Cube<WarpedFace>, AngularCube);
 
 #[cfg(test)]
 mod tests {

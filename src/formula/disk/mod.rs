@@ -39,6 +39,7 @@ mod stretch;
 pub(crate) use projection::Projection;
 pub(crate) use stretch::Stretch;
 
+use super::octant_table::octant_kernels;
 use super::support::bits::Pair;
 use super::support::sign::{negate_if, not_if};
 use super::{Formula, Symmetric, kernels};
@@ -244,6 +245,7 @@ impl Symmetric for Disk {
 }
 
 kernels!(Disk: Words);
+octant_kernels!(Disk);
 
 #[cfg(test)]
 mod tests {

@@ -45,6 +45,7 @@ pub(crate) use unorm::OctUnorm;
 
 use core::marker::PhantomData;
 
+use super::octant_table::octant_kernels;
 use super::support::bits::Pair;
 use super::support::sign::negate_if;
 use super::{Formula, Lattice, Symmetric, kernels};
@@ -180,6 +181,7 @@ impl<P: Projection> Symmetric for Oct<P> {
 }
 
 kernels!(Oct<Central>: Words; Oct<Warped>: Words; Oct<EqualArea>: Words; OctUnorm: Words);
+octant_kernels!(Oct<Central>, Oct<Warped>, Oct<EqualArea>);
 
 #[cfg(test)]
 mod tests {
