@@ -141,6 +141,7 @@ kernels!(Fibonacci: Words);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::testing::assert_nearest;
 
     #[test]
     fn four_points_are_a_golden_section_of_a_turn_apart() {
@@ -185,21 +186,15 @@ mod tests {
 
     #[test]
     fn of_all_points_the_nearest_is_found() {
+        // Around both poles, and farther and farther from them.
+        let vectors = (0u8..60).map(|turn| {
+            let pole = if turn % 2 == 0 { 4.0 } else { -4.0 };
+            let turn = f32::from(turn);
+            let (sin, cos) = (turn * 0.7).sin_cos();
+            [sin, cos, pole - 0.07 * turn]
+        });
         for n in [5, 30, 1000] {
-            let formula = Fibonacci::new(n as u32);
-            for turn in 0..60 {
-                // Around both poles, and farther and farther from them.
-                let (sin, cos) = (turn as f32 * 0.7).sin_cos();
-                let v = Vec3::new(
-                    sin,
-                    cos,
-                    if turn % 2 == 0 { 4.0 } else { -4.0 } - 0.07 * turn as f32,
-                );
-                let v = v.normalize();
-                let distance = |i: i32| formula.decode::<f32>(i.into()).distance_squared(v);
-                let least = (0..n).map(distance).fold(4.0, f32::min);
-                assert!(distance(formula.encode(v).0) <= least + 1e-7, "{v:?}");
-            }
+            assert_nearest(Fibonacci::new(n as u32), n, vectors.clone());
         }
     }
 

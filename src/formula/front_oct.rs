@@ -122,6 +122,7 @@ kernels!(FrontOct: Words);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::testing::{assert_nearest, spiral};
 
     fn assert_near(v: Vec3<f32>, expected: [f32; 3]) {
         assert!(v.distance_squared(expected.into()) < 1e-12, "{v:?}");
@@ -181,15 +182,6 @@ mod tests {
 
     #[test]
     fn of_all_codes_the_nearest_is_found() {
-        let small = FrontOct::new(8, 2);
-        for turn in 0..60 {
-            // From pole to pole, round and round.
-            let (sin, cos) = (turn as f32 * 0.7).sin_cos();
-            let z = turn as f32 * 0.1 - 2.95;
-            let v = Vec3::new(sin, cos, z).normalize();
-            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
-            let least = (0..256).map(distance).fold(4.0, f32::min);
-            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
-        }
+        assert_nearest(FrontOct::new(8, 2), 256, spiral(60));
     }
 }

@@ -191,6 +191,7 @@ octant_kernels!(HemiOct);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::testing::{VECTORS, assert_nearest};
 
     const HEMI: HemiOct = HemiOct::new(16);
     const SIGNED: SignedOct = SignedOct::new(17);
@@ -266,18 +267,6 @@ mod tests {
 
     #[test]
     fn of_all_codes_the_nearest_is_found() {
-        let small = SignedOct::new(9);
-        for v in [
-            [0.1f32, 0.2, 0.9],
-            [-0.7, 0.7, 0.1],
-            [0.3, -0.2, -0.4],
-            [0.9, -0.01, -0.05],
-            [-0.2, -0.9, -0.8],
-        ] {
-            let v = Vec3::from(v).normalize();
-            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
-            let least = (0..512).map(distance).fold(4.0, f32::min);
-            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
-        }
+        assert_nearest(SignedOct::new(9), 512, VECTORS);
     }
 }

@@ -28,6 +28,8 @@ pub(crate) mod phi_z;
 #[cfg(feature = "spherical")]
 pub(crate) mod spherical;
 pub(crate) mod support;
+#[cfg(test)]
+pub(crate) mod testing;
 #[cfg(feature = "cartesian")]
 pub(crate) mod xy_only;
 

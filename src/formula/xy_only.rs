@@ -373,6 +373,7 @@ octant_kernels!(XyOnly<XyUnorm>);
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::testing::assert_nearest;
 
     const UNORM: XyOnly<XyUnorm> = XyOnly::<XyUnorm>::new(16);
     const HALF: XyOnly<XyHalf> = XyOnly::<XyHalf>::new();
@@ -464,18 +465,13 @@ mod tests {
 
     #[test]
     fn of_all_codes_the_nearest_is_found() {
-        let small = XyOnly::<XyUnorm>::new(8);
-        for v in [
-            [0.8f32, 0.55, 0.24],
+        let vectors = [
+            [0.8, 0.55, 0.24],
             [0.03, 0.998, 0.05],
             [-0.7, 0.7, 0.1],
             [0.3, -0.2, 0.9],
             [-0.99, -0.1, 0.0],
-        ] {
-            let v = Vec3::from(v).normalize();
-            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
-            let least = (0..256).map(distance).fold(4.0, f32::min);
-            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
-        }
+        ];
+        assert_nearest(XyOnly::<XyUnorm>::new(8), 256, vectors);
     }
 }

@@ -307,25 +307,15 @@ struct FoundPoint<V: Simd> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formula::Formula;
     use crate::formula::cartesian::Xyz;
-
-    /// The least angle of any code of `bits` bits, as a distance.
-    fn least_distance(formula: Xyz, bits: u32, v: Vec3<f32>) -> f32 {
-        let distance = |code: i32| formula.decode::<f32>(code.into()).distance_squared(v);
-        (0..1 << bits).map(distance).fold(4.0, f32::min)
-    }
+    use crate::formula::testing::assert_nearest;
 
     #[test]
     fn of_all_codes_the_nearest_is_found() {
-        let vectors = [[1.0f32, 2.0, 3.0], [-7.0, 6.9, 0.1], [0.3, -0.9, 0.2], [5.0, 5.1, -5.2]];
+        let vectors = [[1.0, 2.0, 3.0], [-7.0, 6.9, 0.1], [0.3, -0.9, 0.2], [5.0, 5.1, -5.2]];
         let formulas = [(Xyz::snorm([5; 3]), 15), (Xyz::snorm([5, 5, 4]), 14), (Xyz::unorm(4), 12)];
         for (formula, bits) in formulas {
-            for v in vectors.map(|v| Vec3::from(v).normalize()) {
-                let found = formula.decode::<f32>(formula.encode_precise(v));
-                let least = least_distance(formula, bits, v);
-                assert!(found.distance_squared(v) <= least + 1e-7, "{v:?}");
-            }
+            assert_nearest(formula, 1 << bits, vectors);
         }
     }
 

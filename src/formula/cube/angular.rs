@@ -149,6 +149,7 @@ fn div_rem<V: Simd, const D: i32>(n: V::Int) -> (V::Int, V::Int) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::formula::testing::{assert_nearest, spiral};
 
     const fn cube(bits: u32) -> AngularCube {
         AngularCube::new(bits)
@@ -228,15 +229,6 @@ mod tests {
 
     #[test]
     fn of_all_codes_the_nearest_is_found() {
-        let small = AngularCube::new(8);
-        for turn in 0..60 {
-            // From pole to pole, round and round.
-            let (sin, cos) = (turn as f32 * 0.7).sin_cos();
-            let z = turn as f32 * 0.1 - 2.95;
-            let v = Vec3::new(sin, cos, z).normalize();
-            let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
-            let least = (0..256).map(distance).fold(4.0, f32::min);
-            assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
-        }
+        assert_nearest(AngularCube::new(8), 256, spiral(60));
     }
 }

@@ -252,6 +252,7 @@ mod tests {
     use super::Projection::{EqArea, EqDist, Stereo};
     use super::Stretch::{Concentric, Ellipse, Plain};
     use super::*;
+    use crate::formula::testing::{assert_nearest, spiral};
 
     const PROJECTIONS: [Projection; 3] = [Stereo, EqArea, EqDist];
     const STRETCHES: [Stretch; 3] = [Plain, Concentric, Ellipse];
@@ -369,16 +370,7 @@ mod tests {
     fn of_all_codes_the_nearest_is_found() {
         for (projection, stretch) in PROJECTIONS.into_iter().flat_map(|p| STRETCHES.map(|s| (p, s)))
         {
-            let small = Disk::new(projection, stretch, 10);
-            for turn in 0..20 {
-                // From pole to pole, round and round.
-                let (sin, cos) = (turn as f32 * 0.7).sin_cos();
-                let z = turn as f32 * 0.3 - 2.95;
-                let v = Vec3::new(sin, cos, z).normalize();
-                let distance = |code: i32| small.decode::<f32>(code.into()).distance_squared(v);
-                let least = (0..1024).map(distance).fold(4.0, f32::min);
-                assert!(distance(small.encode_precise(v).0) <= least + 1e-7, "{v:?}");
-            }
+            assert_nearest(Disk::new(projection, stretch, 10), 1024, spiral(20));
         }
     }
 }
