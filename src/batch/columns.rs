@@ -160,7 +160,7 @@ impl<const K: usize> Output for Columns<K> {
         slices: <Self as Output>::Slices<'a>,
         count: usize,
     ) -> Option<<Self as Output>::Blocks<'a, V>> {
-        let mut all = [(); K].map(|()| &mut [][..]);
+        let mut all = empty();
         for (all, column) in all.iter_mut().zip(slices) {
             *all = blocks_mut::<V, f32>(column, count)?;
         }
@@ -185,7 +185,8 @@ impl<const K: usize> Output for Columns<K> {
 }
 
 /// Columns without elements.
-pub(crate) fn empty<'a, const K: usize>() -> [&'a mut [f32]; K] {
+#[inline(always)]
+pub(crate) fn empty<'a, T, const K: usize>() -> [&'a mut [T]; K] {
     [(); K].map(|()| &mut [][..])
 }
 

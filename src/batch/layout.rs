@@ -101,7 +101,7 @@ impl<'a> Codes<'a> {
     }
 
     pub(crate) fn len(self) -> usize {
-        self.codes.bytes.len().checked_div(self.codes.size).unwrap_or(0)
+        self.codes.len()
     }
 
     /// At most `len` codes at a time.

@@ -71,12 +71,11 @@ impl HemiOct {
         (p * self.half_step).normalize()
     }
 
-    /// The code with x or y negated: (x + y, x - y) becomes minus (x - y, x + y) or (x - y, x + y).
+    /// The parameters with x or y negated: (x + y, x - y) becomes minus (x - y, x + y) or (x - y, x + y).
     #[inline(always)]
-    fn mirror_xy<V: Simd>(self, code: V::Int, x: bool, y: bool) -> V::Int {
-        let [u, w] = self.pair.unpack_snorm::<V>(code);
+    fn mirror_xy<V: Simd>(self, [u, w]: [V::Int; 2], x: bool, y: bool) -> [V::Int; 2] {
         let [u, w] = if x != y { [w, u] } else { [u, w] };
-        self.pair.pack_snorm::<V>([negate_if(u, x), negate_if(w, x)])
+        [negate_if(u, x), negate_if(w, x)]
     }
 
     pub(crate) const fn points_per_octant(self) -> usize {
@@ -108,7 +107,11 @@ impl Formula for HemiOct {
     #[inline(always)]
     fn mirror<V: Simd>(self, code: V::Int, flips: [bool; 3]) -> V::Int {
         let [x, y, z] = flips;
-        if z { self.mirror_decoded::<V>(code, flips) } else { self.mirror_xy::<V>(code, x, y) }
+        if z {
+            return self.mirror_decoded::<V>(code, flips);
+        }
+        let params = self.pair.unpack_snorm::<V>(code);
+        self.pair.pack_snorm::<V>(self.mirror_xy::<V>(params, x, y))
     }
 }
 
@@ -144,12 +147,6 @@ impl SignedOct {
         self.hemisphere.pair.pack_snorm::<V>([u, w]) | V::Int::select(lower, 1 << self.sign_bit, 0)
     }
 
-    /// [`pack`](Self::pack) of what [`HemiOct`] has packed.
-    #[inline(always)]
-    fn signed<V: Simd>(self, code: V::Int, lower: V::Mask) -> V::Int {
-        self.pack::<V>(self.hemisphere.pair.unpack_snorm::<V>(code), lower)
-    }
-
     #[inline(always)]
     fn is_lower<V: Simd>(self, code: V::Int) -> V::Mask {
         V::Int::splat(0).lt(code.shr_logical(self.sign_bit).low_bits(1))
@@ -181,7 +178,8 @@ impl Formula for SignedOct {
     #[inline(always)]
     fn mirror<V: Simd>(self, code: V::Int, [x, y, z]: [bool; 3]) -> V::Int {
         let lower = not_if(self.is_lower::<V>(code), z);
-        self.signed::<V>(self.hemisphere.mirror_xy::<V>(code, x, y), lower)
+        let params = self.hemisphere.pair.unpack_snorm::<V>(code);
+        self.pack::<V>(self.hemisphere.mirror_xy::<V>(params, x, y), lower)
     }
 }
 

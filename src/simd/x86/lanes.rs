@@ -8,7 +8,7 @@ use fearless_simd::{
     u8x64, u32x8, u32x16,
 };
 
-use super::mask::{Bits8, Compare};
+use super::mask::{Bits8, Compare, Equal, LessOrEqual};
 use super::shuffle::{Shuffle, dense, first, spread};
 use super::{Token, each};
 use crate::simd::operators::{operators, scalar_operators};

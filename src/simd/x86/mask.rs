@@ -19,9 +19,17 @@ pub(super) trait Compare: Copy {
     type Mask: Copy;
 
     fn less(self, other: Self) -> Self::Mask;
-    fn less_or_equal(self, other: Self) -> Self::Mask;
-    fn equal(self, other: Self) -> Self::Mask;
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+}
+
+/// What only floats are asked.
+pub(super) trait LessOrEqual: Compare {
+    fn less_or_equal(self, other: Self) -> Self::Mask;
+}
+
+/// What only integers are asked.
+pub(super) trait Equal: Compare {
+    fn equal(self, other: Self) -> Self::Mask;
 }
 
 /// 0 or -1 in each of eight lanes.
@@ -93,15 +101,6 @@ impl Compare for f32x8<Avx2> {
         a.into(),
         b.into()
     )));
-    compare!(less_or_equal, f32x8, |a, b| _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LE_OQ>(
-        a.into(),
-        b.into()
-    )));
-    compare!(equal, f32x8, |a, b| _mm256_castps_si256(_mm256_cmp_ps::<_CMP_EQ_OQ>(
-        a.into(),
-        b.into()
-    )));
-
     #[inline(always)]
     fn select(mask: Bits8, yes: Self, no: Self) -> Self {
         kernel!(
@@ -120,16 +119,17 @@ impl Compare for f32x8<Avx2> {
     }
 }
 
+impl LessOrEqual for f32x8<Avx2> {
+    compare!(less_or_equal, f32x8, |a, b| _mm256_castps_si256(_mm256_cmp_ps::<_CMP_LE_OQ>(
+        a.into(),
+        b.into()
+    )));
+}
+
 impl Compare for i32x8<Avx2> {
     type Mask = Bits8;
 
     compare!(less, i32x8, |a, b| _mm256_cmpgt_epi32(b.into(), a.into()));
-    compare!(equal, i32x8, |a, b| _mm256_cmpeq_epi32(a.into(), b.into()));
-
-    #[inline(always)]
-    fn less_or_equal(self, other: Self) -> Bits8 {
-        !other.less(self)
-    }
 
     #[inline(always)]
     fn select(mask: Bits8, yes: Self, no: Self) -> Self {
@@ -148,6 +148,10 @@ impl Compare for i32x8<Avx2> {
     }
 }
 
+impl Equal for i32x8<Avx2> {
+    compare!(equal, i32x8, |a, b| _mm256_cmpeq_epi32(a.into(), b.into()));
+}
+
 /// AVX-512 has registers for truth values.
 macro_rules! compare_by_registers {
     ($($vector:ident),*) => { $(
@@ -159,14 +163,6 @@ macro_rules! compare_by_registers {
                 self.simd_lt(other)
             }
             #[inline(always)]
-            fn less_or_equal(self, other: Self) -> Self::Mask {
-                self.simd_le(other)
-            }
-            #[inline(always)]
-            fn equal(self, other: Self) -> Self::Mask {
-                self.simd_eq(other)
-            }
-            #[inline(always)]
             fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
                 Select::select(mask, yes, no)
             }
@@ -175,3 +171,17 @@ macro_rules! compare_by_registers {
 }
 
 compare_by_registers!(f32x16, i32x16);
+
+impl LessOrEqual for f32x16<Avx512> {
+    #[inline(always)]
+    fn less_or_equal(self, other: Self) -> Self::Mask {
+        self.simd_le(other)
+    }
+}
+
+impl Equal for i32x16<Avx512> {
+    #[inline(always)]
+    fn equal(self, other: Self) -> Self::Mask {
+        self.simd_eq(other)
+    }
+}
