@@ -1,8 +1,9 @@
-//! Tangent frames in `f64`: the direction of an input, and what a code means.
+//! Tangent frames in `f64`: the direction of an input, and what a code means; and frames as columns.
 
 use std::f64::consts::TAU;
 
-use unitpack::frame::Frame;
+use unitpack::frame::{Frame, FrameSoa, FrameSoaMut};
+use unitpack::{Soa, SoaMut};
 
 use crate::vectors::{cross, dot, length, normalize, plus, scaled, widen};
 
@@ -75,4 +76,28 @@ pub fn off_unit(code: [i16; 4]) -> f64 {
 /// Normal and tangent.
 pub fn vectors(frame: Frame) -> ([f64; 3], [f64; 3]) {
     (widen(frame.normal), widen(frame.tangent))
+}
+
+/// Normals, tangents and handedness of frames, a column a component.
+pub fn columns(frames: &[Frame]) -> [Vec<f32>; 7] {
+    [0, 1, 2, 3, 4, 5, 6].map(|i| {
+        let column = |f: &Frame| match i {
+            0..3 => f.normal[i],
+            3..6 => f.tangent[i - 3],
+            _ => f.handedness,
+        };
+        frames.iter().map(column).collect()
+    })
+}
+
+/// Such columns as a structure of arrays.
+pub fn soa([nx, ny, nz, tx, ty, tz, handedness]: &[Vec<f32>; 7]) -> FrameSoa<'_> {
+    let (normal, tangent) = (Soa { x: nx, y: ny, z: nz }, Soa { x: tx, y: ty, z: tz });
+    FrameSoa { normal, tangent, handedness }
+}
+
+/// [`soa`] to write.
+pub fn soa_mut([nx, ny, nz, tx, ty, tz, handedness]: &mut [Vec<f32>; 7]) -> FrameSoaMut<'_> {
+    let (normal, tangent) = (SoaMut { x: nx, y: ny, z: nz }, SoaMut { x: tx, y: ty, z: tz });
+    FrameSoaMut { normal, tangent, handedness }
 }

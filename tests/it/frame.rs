@@ -5,10 +5,8 @@ use std::sync::LazyLock;
 
 use bytemuck::Zeroable;
 
-use unitpack::frame::{
-    Frame, FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, QTangent64, Skew,
-};
-use unitpack::{Codec, LengthMismatch, Oct22, Oct32, Soa, SoaMut};
+use unitpack::frame::{Frame, FrameCodec, OctAngle32, OctAngle64, QTangent64, Skew};
+use unitpack::{Codec, LengthMismatch, Oct22, Oct32};
 use unitpack_test::frames::*;
 use unitpack_test::random::{Rng, special_vectors};
 use unitpack_test::vectors::{angle, cross, dot, length, normalize, plus, scaled, widen};
@@ -600,33 +598,6 @@ fn skew_is_what_the_angle_lacks_of_90_degrees() {
     assert!((frame.skew_degrees() - 45.0).abs() < 1e-5);
     let frame = Frame { normal: [f32::NAN; 3], tangent: [0.0, 0.0, -8.0], ..frame };
     assert_eq!(frame.skew_degrees(), 90.0);
-}
-
-fn columns(frames: &[Frame]) -> [Vec<f32>; 7] {
-    [0, 1, 2, 3, 4, 5, 6].map(|i| {
-        let column = |f: &Frame| match i {
-            0..3 => f.normal[i],
-            3..6 => f.tangent[i - 3],
-            _ => f.handedness,
-        };
-        frames.iter().map(column).collect()
-    })
-}
-
-fn soa([nx, ny, nz, tx, ty, tz, handedness]: &[Vec<f32>; 7]) -> FrameSoa<'_> {
-    FrameSoa {
-        normal: Soa { x: nx, y: ny, z: nz },
-        tangent: Soa { x: tx, y: ty, z: tz },
-        handedness,
-    }
-}
-
-fn soa_mut([nx, ny, nz, tx, ty, tz, handedness]: &mut [Vec<f32>; 7]) -> FrameSoaMut<'_> {
-    FrameSoaMut {
-        normal: SoaMut { x: nx, y: ny, z: nz },
-        tangent: SoaMut { x: tx, y: ty, z: tz },
-        handedness,
-    }
 }
 
 fn check_aos<C: FrameCodec, const N: usize>(frames: &[Frame], codes: [&[C::Code]; 2], skew: Skew) {

@@ -6,9 +6,10 @@ use std::fmt::Debug;
 
 use bytemuck::{Pod, Zeroable, bytes_of, pod_read_unaligned};
 use support::{Random, vectors};
+use unitpack::LengthMismatch;
 use unitpack::frame::*;
-use unitpack::{LengthMismatch, Soa, SoaMut};
 use unitpack_test::digests::{Section, digest};
+use unitpack_test::frames::{columns, soa, soa_mut};
 
 /// Every kind of normal with every kind of tangent: any two, parallel ones, and ones across.
 fn frames() -> Vec<Frame> {
@@ -31,27 +32,6 @@ fn frames() -> Vec<Frame> {
         frames.push(Frame { normal, tangent, handedness });
     }
     frames
-}
-
-fn columns(frames: &[Frame]) -> [Vec<f32>; 7] {
-    [0, 1, 2, 3, 4, 5, 6].map(|i| {
-        let column = |f: &Frame| match i {
-            0..3 => f.normal[i],
-            3..6 => f.tangent[i - 3],
-            _ => f.handedness,
-        };
-        frames.iter().map(column).collect()
-    })
-}
-
-fn soa([nx, ny, nz, tx, ty, tz, handedness]: &[Vec<f32>; 7]) -> FrameSoa<'_> {
-    let (normal, tangent) = (Soa { x: nx, y: ny, z: nz }, Soa { x: tx, y: ty, z: tz });
-    FrameSoa { normal, tangent, handedness }
-}
-
-fn soa_mut([nx, ny, nz, tx, ty, tz, handedness]: &mut [Vec<f32>; 7]) -> FrameSoaMut<'_> {
-    let (normal, tangent) = (SoaMut { x: nx, y: ny, z: nz }, SoaMut { x: tx, y: ty, z: tz });
-    FrameSoaMut { normal, tangent, handedness }
 }
 
 fn bytes<T: Pod>(slice: &[T]) -> impl Iterator<Item = u8> + '_ {
