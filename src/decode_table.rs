@@ -37,7 +37,7 @@ use core::marker::PhantomData;
 
 use crate::batch::layout::{Codes, PART, VectorsMut};
 use crate::batch::storage::from_native;
-use crate::codec::{Codec, Format, codec_table};
+use crate::codec::{Codec, Format, for_each_codec};
 use crate::error::LengthMismatch;
 use crate::formula::names::*;
 use crate::formula::octant_table::{Mirrored, OctantKernels};
@@ -247,20 +247,7 @@ pub trait SignSymmetric: Codec {
 
 /// Implements the trait for the rows with the flag `octant`.
 macro_rules! sign_symmetric {
-    ($(
-        #[$gate:meta]
-        $family:literal {$(
-            $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
-                exact $axes:tt $(/ $axes_precise:tt)?,
-                $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
-        )*}
-    )*) => {$($(
-        #[$gate]
-        sign_symmetric!(
-            @row $name, $code, $bits, $formula $(::<$($kind),+>)? :: $new($($value),*); $($flag)*
-        );
-    )*)*};
-    (@row $name:ident, $code:ty, $bits:literal, $value:expr; octant $($rest:ident)*) => {
+    ($name:ident, $code:ty, $bits:literal, $value:expr) => {
         impl SignSymmetric for crate::codec::$name {
             const ENTRIES: usize = {
                 assert!($bits <= 16);
@@ -282,13 +269,9 @@ macro_rules! sign_symmetric {
             }
         }
     };
-    (@row $name:ident, $code:ty, $bits:literal, $value:expr; $flag:ident $($rest:ident)*) => {
-        sign_symmetric!(@row $name, $code, $bits, $value; $($rest)*);
-    };
-    (@row $name:ident, $code:ty, $bits:literal, $value:expr;) => {};
 }
 
-codec_table!(sign_symmetric);
+for_each_codec!(@row octant: sign_symmetric);
 
 /// Decodes the codes from 0 on, which have one or two bytes.
 #[inline(never)]

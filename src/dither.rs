@@ -48,7 +48,7 @@ use crate::batch::columns::{CodeColumn, Columns, Indices};
 use crate::batch::layout::{Codes, CodesMut, PART, Vectors, VectorsMut, columns, columns_mut};
 use crate::batch::storage::{Words, to_native};
 use crate::batch::{Kernel, map};
-use crate::codec::{Codec, Format, codec_table};
+use crate::codec::{Codec, Format, for_each_codec};
 use crate::error::LengthMismatch;
 use crate::formula::Lattice;
 use crate::formula::names::*;
@@ -375,20 +375,7 @@ fn encode_numbered(
 
 /// Implements the trait for the rows with the flag `stochastic`.
 macro_rules! stochastic_rounding {
-    ($(
-        #[$gate:meta]
-        $family:literal {$(
-            $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
-                exact $axes:tt $(/ $axes_precise:tt)?,
-                $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
-        )*}
-    )*) => {$($(
-        #[$gate]
-        stochastic_rounding!(
-            @row $name, $code, $formula $(::<$($kind),+>)? :: $new($($value),*); $($flag)*
-        );
-    )*)*};
-    (@row $name:ident, $code:ty, $value:expr; stochastic $($rest:ident)*) => {
+    ($name:ident, $code:ty, $bits:literal, $value:expr) => {
         impl StochasticRounding for crate::codec::$name {
             #[inline]
             fn encode_one(number: u32, v: [f32; 3]) -> $code {
@@ -401,13 +388,9 @@ macro_rules! stochastic_rounding {
             }
         }
     };
-    (@row $name:ident, $code:ty, $value:expr; $flag:ident $($rest:ident)*) => {
-        stochastic_rounding!(@row $name, $code, $value; $($rest)*);
-    };
-    (@row $name:ident, $code:ty, $value:expr;) => {};
 }
 
-codec_table!(stochastic_rounding);
+for_each_codec!(@row stochastic: stochastic_rounding);
 
 #[cfg(feature = "octahedral")]
 impl Oct<Central> {

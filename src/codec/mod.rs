@@ -12,7 +12,7 @@ use crate::vector::{Soa, SoaMut};
 pub use define::*;
 pub use format::{UnknownFormat, Visitor, transcode};
 pub use report::ErrorReport;
-pub(crate) use table::codec_table;
+pub(crate) use table::{codec_table, for_each_codec};
 
 /// A representation of unit vectors: what a bit pattern means, and how to get there.
 ///

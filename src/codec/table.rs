@@ -309,12 +309,16 @@ pub(crate) use codec_table;
 
 /// Calls a macro with each codec whose row has a flag: `for_each_codec!(octant: check)` is
 /// `check!(Oct8); check!(Oct10);` and so on. The tests and tools of this repository, in which all
-/// features are on, have their lists from it.
+/// features are on, have their lists from it. In this crate, `for_each_codec!(@row octant: check)` gives
+/// the code, the bits and the formula too, if the feature of the codec is on.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! for_each_codec {
     ($flag:ident: $callback:ident) => {
-        $crate::codec_table! { [$crate::for_each_codec] @rows [$flag $callback] }
+        $crate::codec_table! { [$crate::for_each_codec] @rows [$flag [$callback]] }
+    };
+    (@row $flag:ident: $callback:ident) => {
+        $crate::codec_table! { [$crate::for_each_codec] @rows [$flag [@row $callback]] }
     };
     (@rows $job:tt $(
         #[$gate:meta]
@@ -324,12 +328,26 @@ macro_rules! for_each_codec {
                 $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
         )*}
     )*) => {
-        $($($crate::for_each_codec! { @row $job $name $($flag)* })*)*
+        $($($crate::for_each_codec! {
+            @flags $job
+            [#[$gate] $name, $code, $bits, $formula $(::<$($kind),+>)? :: $new($($value),*)]
+            $($flag)*
+        })*)*
     };
-    (@row [octant $callback:ident] $name:ident octant $($rest:ident)*) => { $callback!($name); };
-    (@row [stochastic $callback:ident] $name:ident stochastic $($rest:ident)*) => { $callback!($name); };
-    (@row $job:tt $name:ident $flag:ident $($rest:ident)*) => {
-        $crate::for_each_codec! { @row $job $name $($rest)* }
+    (@flags [octant $call:tt] $row:tt octant $($rest:ident)*) => {
+        $crate::for_each_codec! { @call $call $row }
     };
-    (@row $job:tt $name:ident) => {};
+    (@flags [stochastic $call:tt] $row:tt stochastic $($rest:ident)*) => {
+        $crate::for_each_codec! { @call $call $row }
+    };
+    (@flags $job:tt $row:tt $flag:ident $($rest:ident)*) => {
+        $crate::for_each_codec! { @flags $job $row $($rest)* }
+    };
+    (@flags $job:tt $row:tt) => {};
+    (@call [$callback:ident] [#[$gate:meta] $name:ident, $($rest:tt)*]) => { $callback!($name); };
+    (@call [@row $callback:ident] [#[$gate:meta] $($row:tt)*]) => {
+        #[$gate]
+        $callback!($($row)*);
+    };
 }
+pub(crate) use for_each_codec;
