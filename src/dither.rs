@@ -392,7 +392,7 @@ macro_rules! stochastic_rounding {
 
 for_each_codec!(@row stochastic: stochastic_rounding);
 
-#[cfg(feature = "octahedral")]
+#[cfg(feature = "oct")]
 impl Oct<Central> {
     #[inline(never)]
     fn encode_stochastic_batch(self, first: u32, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {

@@ -2,7 +2,7 @@
 #![no_std]
 #![cfg_attr(feature = "std", deny(unsafe_code))]
 #![cfg_attr(not(feature = "std"), forbid(unsafe_code))]
-// Each group of codecs uses another part of what they share.
+// Each family of codecs uses another part of what they share.
 #![cfg_attr(
     not(all(feature = "all", feature = "std")),
     allow(dead_code, unused_imports, unused_macros, unused_variables)
@@ -25,13 +25,13 @@ pub mod packing;
 pub mod quaternion;
 pub mod scalar;
 mod simd;
-#[cfg(feature = "spherical")]
+#[cfg(feature = "fibonacci")]
 mod spherical_fibonacci;
 mod vector;
 
 pub use batch::code_int::CodeInt;
 pub use codec::*;
 pub use error::LengthMismatch;
-#[cfg(feature = "spherical")]
+#[cfg(feature = "fibonacci")]
 pub use spherical_fibonacci::SphericalFibonacci;
 pub use vector::{Soa, SoaMut};

@@ -42,7 +42,7 @@ macro_rules! precise_axes {
 
 macro_rules! define_codecs {
     ($(
-        #[$gate:meta]
+        #[cfg(feature = $feature:literal)]
         $family:literal {$(
             $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
                 exact $axes:tt $(/ $axes_precise:tt)?,
@@ -50,7 +50,7 @@ macro_rules! define_codecs {
         )*}
     )*) => {
         $($(
-            #[$gate]
+            #[cfg(feature = $feature)]
             #[doc = concat!("`", $text, "`: ", $bits, " bits in a `", stringify!($code), "`.")]
             #[doc = ""]
             #[doc = concat!(
@@ -60,12 +60,13 @@ macro_rules! define_codecs {
             #[doc = $family]
             #[doc = ""]
             #[doc = concat!(
-                "Axes that round-trip exactly: ", axes_text!($axes), $("; with `encode_precise`: ", axes_text!($axes_precise),)? "."
+                "Axes that round-trip exactly: ", axes_text!($axes), $("; with `encode_precise`: ", axes_text!($axes_precise),)? ".",
+                " Feature: `", $feature, "`."
             )]
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
             pub struct $name;
 
-            #[$gate]
+            #[cfg(feature = $feature)]
             const _: () = {
                 type Code = $code;
                 type Bytes = [u8; size_of::<$code>()];
@@ -139,38 +140,38 @@ macro_rules! define_codecs {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum Format {$($(
-            #[$gate]
+            #[cfg(feature = $feature)]
             #[doc = concat!("[`", stringify!($name), "`](struct@", stringify!($name), ")")]
             $name,
         )*)*}
 
         impl Format {
             /// Every format, in the order of the table.
-            pub const ALL: &'static [Format] = &[$($(#[$gate] Format::$name,)*)*];
+            pub const ALL: &'static [Format] = &[$($(#[cfg(feature = $feature)] Format::$name,)*)*];
 
             /// The survey's own name, such as "oct16".
             #[inline]
             pub const fn name(self) -> &'static str {
-                match self {$($(#[$gate] Format::$name => $text,)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => $text,)*)*}
             }
 
             /// Number of significant bits. Higher bits are zero when encoded and ignored when decoded.
             #[inline]
             pub const fn bits(self) -> u32 {
-                match self {$($(#[$gate] Format::$name => $bits,)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => $bits,)*)*}
             }
 
             /// Size of a code in bytes.
             #[inline]
             pub const fn code_size(self) -> usize {
-                match self {$($(#[$gate] Format::$name => size_of::<$code>(),)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => size_of::<$code>(),)*)*}
             }
 
             /// Whether only directions with z >= 0 are represented.
             #[inline]
             pub const fn is_hemisphere(self) -> bool {
                 match self {$($(
-                    #[$gate]
+                    #[cfg(feature = $feature)]
                     Format::$name => <$formula $(<$($kind),+>)? as Formula>::HEMISPHERE,
                 )*)*}
             }
@@ -179,27 +180,27 @@ macro_rules! define_codecs {
             /// For hemisphere formats it holds for inputs with z >= 0.
             #[inline]
             pub const fn max_error_degrees(self) -> f64 {
-                match self {$($(#[$gate] Format::$name => $fast,)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => $fast,)*)*}
             }
 
             /// Upper bound on the error of `encode_precise` in degrees, usually within 0.5 % of the true
             /// maximum. For hemisphere formats it holds for inputs with z >= 0.
             #[inline]
             pub const fn max_error_precise_degrees(self) -> f64 {
-                match self {$($(#[$gate] Format::$name => $precise,)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => $precise,)*)*}
             }
 
             /// The axes that `encode` and `decode` return exactly, such as "±X ±Z"; "" if there are none.
             #[inline]
             pub const fn exact_axes(self) -> &'static str {
-                match self {$($(#[$gate] Format::$name => $axes,)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => $axes,)*)*}
             }
 
             /// The axes that `encode_precise` and `decode` return exactly, such as "±X ±Z"; "" if there are
             /// none.
             #[inline]
             pub const fn exact_axes_precise(self) -> &'static str {
-                match self {$($(#[$gate] Format::$name => precise_axes!($axes $($axes_precise)?),)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => precise_axes!($axes $($axes_precise)?),)*)*}
             }
 
             /// Calls `v` with the type of this codec.
@@ -208,24 +209,24 @@ macro_rules! define_codecs {
             /// compiled once, in this crate.
             #[inline]
             pub fn visit<V: Visitor>(self, v: V) -> V::Output {
-                match self {$($(#[$gate] Format::$name => v.visit::<$name>(),)*)*}
+                match self {$($(#[cfg(feature = $feature)] Format::$name => v.visit::<$name>(),)*)*}
             }
 
             pub(super) fn encode_batch(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
                 layout::encode(vectors, codes, &|v, codes| match self {
-                    $($(#[$gate] Format::$name => $name::encode_columns(v, codes),)*)*
+                    $($(#[cfg(feature = $feature)] Format::$name => $name::encode_columns(v, codes),)*)*
                 });
             }
 
             pub(super) fn encode_batch_precise(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
                 layout::encode(vectors, codes, &|v, codes| match self {
-                    $($(#[$gate] Format::$name => $name::encode_columns_precise(v, codes),)*)*
+                    $($(#[cfg(feature = $feature)] Format::$name => $name::encode_columns_precise(v, codes),)*)*
                 });
             }
 
             pub(crate) fn decode_batch(self, codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
                 layout::decode(codes, vectors, &|codes, v, fence| match self {
-                    $($(#[$gate] Format::$name => $name::decode_columns(codes, v, fence),)*)*
+                    $($(#[cfg(feature = $feature)] Format::$name => $name::decode_columns(codes, v, fence),)*)*
                 });
             }
         }

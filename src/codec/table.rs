@@ -15,7 +15,7 @@
 macro_rules! codec_table {
     ($callback:ident) => { $crate::codec_table! { [$callback] } };
     ([$($callback:tt)*] $($argument:tt)*) => { $($callback)*! { $($argument)*
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "oct")]
     "[Octahedral](https://jcgt.org/published/0003/02/01/): the sphere unfolded from an octahedron into a square. Two snorm \
      [parameters](Codec#bit-layout)." {
         Oct8: u8 = "oct8", 8 bits, 17.26 / 11.47 degrees, exact "±X ±Y ±Z", Oct::<Central>::new(8), octant, stochastic;
@@ -32,7 +32,7 @@ macro_rules! codec_table {
         Oct30: u32 = "oct30", 30 bits, 0.007460 / 0.004968 degrees, exact "±X ±Y ±Z", Oct::<Central>::new(30), stochastic;
         Oct32: u32 = "oct32", 32 bits, 0.003736 / 0.002486 degrees, exact "±X ±Y ±Z", Oct::<Central>::new(32), hot, stochastic;
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "warpedoct")]
     "Octahedral with cells of about the same size: each coordinate of [`Oct16`]'s octahedron warped by a cubic. With \
      `encode_precise` the least greatest error of all formats of its size. oct, denser around the axes, has the smaller mean error \
      where normals crowd there, as on built geometry. Two snorm [parameters](Codec#bit-layout)." {
@@ -42,13 +42,13 @@ macro_rules! codec_table {
         WarpedOct24: [u8; 3] = "warpedoct24", 24 bits, 0.05521 / 0.03223 degrees, exact "±X ±Y ±Z", Oct::<Warped>::new(24);
         WarpedOct32: u32 = "warpedoct32", 32 bits, 0.003486 / 0.002014 degrees, exact "±X ±Y ±Z", Oct::<Warped>::new(32);
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "eqareaoct")]
     "Octahedral with cells of equal area, as environment maps have it. Two snorm [parameters](Codec#bit-layout)." {
         EqAreaOct16: u16 = "eqareaoct16", 16 bits, 0.9710 / 0.5848 degrees, exact "±X ±Y ±Z", Oct::<EqualArea>::new(16), octant;
         EqAreaOct24: [u8; 3] = "eqareaoct24", 24 bits, 0.06045 / 0.03694 degrees, exact "±X ±Y ±Z", Oct::<EqualArea>::new(24);
         EqAreaOct32: u32 = "eqareaoct32", 32 bits, 0.003800 / 0.002313 degrees, exact "±X ±Y ±Z", Oct::<EqualArea>::new(32);
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "oct")]
     "[Octahedral](https://jcgt.org/published/0003/02/01/) whose steps are a multiple of six: 126, 2046 or 32766. Two snorm \
      [parameters](Codec#bit-layout), of which greater ones read as the greatest. All middles of the edges \
      and corners of a cube, such as (1, 1, 0) and (1, 1, 1), survive exactly too." {
@@ -56,20 +56,20 @@ macro_rules! codec_table {
         SixOct24: [u8; 3] = "sixoct24", 24 bits, 0.05972 / 0.03981 degrees, exact "±X ±Y ±Z", Oct::<Central>::with_multiple(24, 6), stochastic;
         SixOct32: u32 = "sixoct32", 32 bits, 0.003742 / 0.002489 degrees, exact "±X ±Y ±Z", Oct::<Central>::with_multiple(32, 6), stochastic;
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "frontoct")]
     "Octahedral with more precision towards +Z, as for normals that mostly face the viewer: cells are half as wide as [`Oct16`]'s at \
      +Z and twice as wide at -Z. Two snorm [parameters](Codec#bit-layout)." {
         FrontOct16: u16 = "frontoct16", 16 bits, 1.341 / 0.9276 degrees, exact "±Z", FrontOct::new(16, 2);
         FrontOct24: [u8; 3] = "frontoct24", 24 bits, 0.08320 / 0.05754 degrees, exact "±Z", FrontOct::new(24, 2);
         FrontOct32: u32 = "frontoct32", 32 bits, 0.005219 / 0.003595 degrees, exact "±X ±Y ±Z", FrontOct::new(32, 2);
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "frontoct")]
     "As [`FrontOct16`], but a quarter as wide at +Z and four times as wide at -Z. Two snorm \
      [parameters](Codec#bit-layout)." {
         QuadFrontOct16: u16 = "quadfrontoct16", 16 bits, 1.814 / 1.447 degrees, exact "±Z", FrontOct::new(16, 4);
         QuadFrontOct24: [u8; 3] = "quadfrontoct24", 24 bits, 0.1126 / 0.08962 degrees, exact "±X ±Y ±Z", FrontOct::new(24, 4);
     }
-    #[cfg(feature = "cartesian")]
+    #[cfg(feature = "xyz")]
     "Cartesian: the three components, x in the low bits, as many bits each as the name says; decoding divides by the length. Snorm \
      -M-1 reads as -M, infinite and NaN halves as 65504, (0, 0, 0) as +Z. Of the patterns of one direction the one whose length \
      is nearest to 1 is canonical; snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction." {
@@ -80,11 +80,11 @@ macro_rules! codec_table {
         Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Xyz16::snorm();
         Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, exact "±X ±Y ±Z", Xyz16::halves();
     }
-    #[cfg(feature = "cartesian")]
+    #[cfg(feature = "xyz")]
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included." {
         Float32x3: [u32; 3] = "float32x3", 96 bits, 0.0 / 0.0 degrees, exact "±X ±Y ±Z", Floats::new();
     }
-    #[cfg(feature = "spherical")]
+    #[cfg(feature = "theta-phi")]
     "Spherical: polar angle, 2 theta / pi - 1, and azimuth, phi / pi, as two snorm \
      [parameters](Codec#bit-layout). Canonical: at a pole the azimuth is 0, on -X it is M." {
         Spherical16: u16 = "spherical16", 16 bits, 0.7955 / 0.7955 degrees, exact "±X ±Z", Spherical::new(16), hot;
@@ -93,14 +93,14 @@ macro_rules! codec_table {
         Spherical24: [u8; 3] = "spherical24", 24 bits, 0.04937 / 0.04936 degrees, exact "±X ±Z", Spherical::new(24);
         Spherical32: u32 = "spherical32", 32 bits, 0.003093 / 0.003086 degrees, exact "±X ±Z", Spherical::new(32);
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "hemioct")]
     "Hemi-oct: the +Z hemisphere, octahedral, turned so that it fills the square. Two snorm \
      [parameters](Codec#bit-layout)." {
         HemiOct16: u16 = "HemiOct16", 16 bits, 0.5548 / 0.5548 degrees, exact "±X ±Y +Z", HemiOct::new(16), hot, octant;
         HemiOct24: [u8; 3] = "HemiOct24", 24 bits, 0.03443 / 0.03442 degrees, exact "±X ±Y +Z", HemiOct::new(24);
         HemiOct32: u32 = "HemiOct32", 32 bits, 0.002163 / 0.002151 degrees, exact "±X ±Y +Z", HemiOct::new(32);
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "hemioct")]
     "Signed oct: two snorm [parameters](Codec#bit-layout) as [`HemiOct16`] has them, and above them a bit that is set where z < 0. For \
      odd budgets: 10 + 10 + 1 bits leave 11 of a word." {
         SignedOct17: u32 = "signedoct17", 17 bits, 0.5554 / 0.5554 degrees, exact "±X ±Y ±Z", SignedOct::new(17);
@@ -108,7 +108,7 @@ macro_rules! codec_table {
         SignedOct23: [u8; 3] = "signedoct23", 23 bits, 0.06895 / 0.06895 degrees, exact "±X ±Y ±Z", SignedOct::new(23);
         SignedOct31: u32 = "signedoct31", 31 bits, 0.004319 / 0.004307 degrees, exact "±X ±Y ±Z", SignedOct::new(31);
     }
-    #[cfg(feature = "cartesian")]
+    #[cfg(feature = "xyonly")]
     "XY-only: the +Z hemisphere, x and y as two unorm [parameters](Codec#bit-layout), (c + 1) / 2. \
      Beyond the rim, the smaller component is kept, but no more than the first grid value from sqrt(1/2); the larger one is put on the \
      rim, and z is 0." {
@@ -116,7 +116,7 @@ macro_rules! codec_table {
         XyOnly24: [u8; 3] = "XYOnly24", 24 bits, 1.51 / 0.8991 degrees, exact "", XyOnly::<XyUnorm>::new(24);
         XyOnly32: u32 = "XYOnly32", 32 bits, 0.379 / 0.2248 degrees, exact "", XyOnly::<XyUnorm>::new(32);
     }
-    #[cfg(feature = "cartesian")]
+    #[cfg(feature = "xyonly")]
     "XY-only: the +Z hemisphere, x and y as two halves, x in the low bits. Magnitudes above 1, infinity and NaN read as 1. Beyond the rim, the \
      smaller component is kept, but no more than the first half from sqrt(1/2); the larger one is put on the rim, and z is 0." {
         XyOnly32F: u32 = "XYOnly32F", 32 bits, 1.51 / 0.8989 degrees, exact "±X ±Y +Z", XyOnly::<XyHalf>::new();
@@ -202,40 +202,40 @@ macro_rules! codec_table {
         EqDistEllipse24: [u8; 3] = "eqdist+ellipse24", 24 bits, 0.04937 / 0.04936 degrees, exact "±X", Disk::new(EqDist, Ellipse, 24);
         EqDistEllipse32: u32 = "eqdist+ellipse32", 32 bits, 0.003105 / 0.003086 degrees, exact "±X", Disk::new(EqDist, Ellipse, 32);
     }
-    #[cfg(feature = "spherical")]
+    #[cfg(feature = "latlong")]
     "Lat-long: as many points on each parallel as there are parallels. The code is an index, row by row from +Z; the last \
      indices read as -Z." {
         LatLong16: u16 = "latlong16", 16 bits, 0.7930 / 0.7930 degrees, exact "+X ±Z", LatLong::<Uniform>::new(16);
         LatLong24: [u8; 3] = "latlong24", 24 bits, 0.04937 / 0.04935 degrees, exact "+X ±Z", LatLong::<Uniform>::new(24);
         LatLong32: u32 = "latlong32", 32 bits, 0.003110 / 0.003088 degrees, exact "+X ±Z", LatLong::<Uniform>::new(32);
     }
-    #[cfg(feature = "spherical")]
+    #[cfg(feature = "latlong")]
     "Lat-long with fewer points towards the poles, so that cells are about as wide as high. The code is an index, row by row \
      from +Z; the last indices read as -Z. A table of 4 bytes a parallel: 1 KB at 16 bits, 15 KB at 24, 232 KB at 32." {
         LatLong16D: u16 = "latlong16D", 16 bits, 0.5647 / 0.5645 degrees, exact "±X ±Z", LatLong::<Adaptive>::new(16);
         LatLong24D: [u8; 3] = "latlong24D", 24 bits, 0.03524 / 0.03522 degrees, exact "±X ±Z", LatLong::<Adaptive>::new(24);
         LatLong32D: u32 = "latlong32D", 32 bits, 0.002228 / 0.002205 degrees, exact "+X ±Z", LatLong::<Adaptive>::new(32);
     }
-    #[cfg(feature = "spherical")]
+    #[cfg(feature = "fibonacci")]
     "[Spherical Fibonacci](crate::SphericalFibonacci): 2^bits points of about the same area on a spiral from +Z to -Z. The code is the \
      index." {
         Fibonacci16: u16 = "fibonacci16", 16 bits, 0.6137 / 0.6137 degrees, exact "", Fibonacci::new(1 << 16);
         Fibonacci24: [u8; 3] = "fibonacci24", 24 bits, 0.03836 / 0.03836 degrees, exact "", Fibonacci::new(1 << 24);
     }
-    #[cfg(feature = "polyhedral")]
+    #[cfg(feature = "cube")]
     "Cube map: 3 bits of face, 2 axis + sign, and two snorm parameters, next / |axis| and next but one / |axis|. The highest \
      bit is unused." {
         Cube16: u16 = "cube16", 16 bits, 1.312 / 1.312 degrees, exact "±X ±Y ±Z", Cube::<Linear>::new(16), octant;
         Cube24: [u8; 3] = "cube24", 24 bits, 0.07961 / 0.07961 degrees, exact "±X ±Y ±Z", Cube::<Linear>::new(24);
         Cube32: u32 = "cube32", 32 bits, 0.004966 / 0.004966 degrees, exact "±X ±Y ±Z", Cube::<Linear>::new(32);
     }
-    #[cfg(feature = "polyhedral")]
+    #[cfg(feature = "cube")]
     "Cube map with even steps of the angle: as cube, each parameter the 4 / pi atan of cube's. The highest bit is unused." {
         WarpedCube16: u16 = "warpedcube16", 16 bits, 1.181 / 1.031 degrees, exact "±X ±Y ±Z", Cube::<WarpedFace>::new(16), octant;
         WarpedCube24: [u8; 3] = "warpedcube24", 24 bits, 0.07216 / 0.06252 degrees, exact "±X ±Y ±Z", Cube::<WarpedFace>::new(24);
         WarpedCube32: u32 = "warpedcube32", 32 bits, 0.004506 / 0.003901 degrees, exact "±X ±Y ±Z", Cube::<WarpedFace>::new(32);
     }
-    #[cfg(feature = "polyhedral")]
+    #[cfg(feature = "cube")]
     "Schinko's angular cube: each face cut into s x s cells of even angle, decoded to their centres, s = floor(sqrt(2^bits / 6)). \
      The code is the index (i s + j) 6 + face; the last indices read as the last cell. The paper's \"error limit\", half the mean \
      distance between neighbours (45°, 6.541°, 1.515°, 0.380° and 0.095° at 4, 8, 12, 16 and 20 bits), is no bound: the greatest error \
@@ -270,35 +270,35 @@ macro_rules! codec_table {
         AngularCube31: u32 = "angularcube31", 31 bits, 0.003912 / 0.003378 degrees, exact "", AngularCube::new(31);
         AngularCube32: u32 = "angularcube32", 32 bits, 0.002766 / 0.002389 degrees, exact "", AngularCube::new(32);
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "octant")]
     "Baptista's octant code: three signs and a point of the octant's triangle. `encode` truncates as the original does; \
      `encode_precise` gives the nearest code of the same format." {
         Octant16: u16 = "octant16", 16 bits, 1.937 / 0.6456 degrees, exact "±X ±Y ±Z", Octant::new(), octant;
     }
-    #[cfg(feature = "cartesian")]
+    #[cfg(feature = "xyz")]
     "Cartesian, scaled and biased: three unorm components, (c + 1) / 2, x in the low bits, as a UNORM render target holds \
      them. Decoding divides by the length. `encode_precise` gives the nearest direction of any length. xyz-unorm16x3 is finer \
      than `f32`, so there what decodes alike is one direction." {
         XyzUnorm8x3: [u8; 3] = "xyz-unorm8x3", 24 bits, 0.3898 / 0.3191 degrees, exact "", Xyz::unorm(8), hot;
         XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, exact "", Xyz16::unorm();
     }
-    #[cfg(feature = "cartesian")]
+    #[cfg(feature = "xyz")]
     "Crytek's best-fit normals: the bits of [`XyzUnorm8x3`], of the length that a table of 256 KiB gives for the direction. \
      `encode_precise` needs no table, nor does decoding; a program that does not call `encode` does not contain it." {
         CrytekBfn24: [u8; 3] = "CrytekBFN24", 24 bits, 0.3191 / 0.3191 degrees, exact "", BestFit::new();
     }
-    #[cfg(feature = "spherical")]
+    #[cfg(feature = "phi-z")]
     "Azimuth and z, each as unorm [parameter](Codec#bit-layout), (phi / pi + 1) / 2 and (z + 1) / 2." {
         PhiZUnorm8x2: u16 = "phi-z-unorm8x2", 16 bits, 5.097 / 3.605 degrees, exact "±Z", PhiZ::new(16);
         PhiZUnorm16x2: u32 = "phi-z-unorm16x2", 32 bits, 0.3193 / 0.2248 degrees, exact "±Z", PhiZ::new(32);
     }
-    #[cfg(feature = "octahedral")]
+    #[cfg(feature = "oct")]
     "[Octahedral](https://jcgt.org/published/0003/02/01/), each parameter as unorm, (c + 1) / 2, as a UNORM render target \
      holds it. Two [parameters](Codec#bit-layout)." {
         OctUnorm8x2: u16 = "oct-unorm8x2", 16 bits, 0.9571 / 0.6381 degrees, exact "-Z", OctUnorm::new(16);
         OctUnorm16x2: u32 = "oct-unorm16x2", 32 bits, 0.003746 / 0.002486 degrees, exact "-Z", OctUnorm::new(32);
     }
-    #[cfg(feature = "polyhedral")]
+    #[cfg(feature = "icosphere")]
     "Icosphere: the nearest of the 162 vertices of an icosahedron with edges cut into four, as Quake 2 had them. Codes from \
      162 read as 161. A table of 2 KB." {
         Icosphere162: u8 = "icosphere162", 8 bits, 10.86 / 10.86 degrees, exact "±X ±Y ±Z", Icosphere::new();
@@ -321,7 +321,7 @@ macro_rules! for_each_codec {
         $crate::codec_table! { [$crate::for_each_codec] @rows [$flag [@row $callback]] }
     };
     (@rows $job:tt $(
-        #[$gate:meta]
+        #[cfg(feature = $feature:literal)]
         $family:literal {$(
             $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
                 exact $axes:tt $(/ $axes_precise:tt)?,
@@ -330,7 +330,7 @@ macro_rules! for_each_codec {
     )*) => {
         $($($crate::for_each_codec! {
             @flags $job
-            [#[$gate] $name, $code, $bits, $formula $(::<$($kind),+>)? :: $new($($value),*)]
+            [#[cfg(feature = $feature)] $name, $code, $bits, $formula $(::<$($kind),+>)? :: $new($($value),*)]
             $($flag)*
         })*)*
     };
@@ -344,9 +344,9 @@ macro_rules! for_each_codec {
         $crate::for_each_codec! { @flags $job $row $($rest)* }
     };
     (@flags $job:tt $row:tt) => {};
-    (@call [$callback:ident] [#[$gate:meta] $name:ident, $($rest:tt)*]) => { $callback!($name); };
-    (@call [@row $callback:ident] [#[$gate:meta] $($row:tt)*]) => {
-        #[$gate]
+    (@call [$callback:ident] [#[cfg(feature = $feature:literal)] $name:ident, $($rest:tt)*]) => { $callback!($name); };
+    (@call [@row $callback:ident] [#[cfg(feature = $feature:literal)] $($row:tt)*]) => {
+        #[cfg(feature = $feature)]
         $callback!($($row)*);
     };
 }

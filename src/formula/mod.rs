@@ -1,36 +1,36 @@
 //! The mathematics: a file a family. [`Formula`] is the trait that every family implements.
 
-#[cfg(feature = "cartesian")]
+#[cfg(feature = "xyz")]
 pub(crate) mod cartesian;
 pub(crate) mod circle;
-#[cfg(feature = "polyhedral")]
+#[cfg(feature = "cube")]
 pub(crate) mod cube;
 #[cfg(feature = "disk")]
 pub(crate) mod disk;
-#[cfg(feature = "spherical")]
+#[cfg(feature = "fibonacci")]
 pub(crate) mod fibonacci;
-#[cfg(feature = "octahedral")]
+#[cfg(feature = "frontoct")]
 pub(crate) mod front_oct;
-#[cfg(feature = "octahedral")]
+#[cfg(feature = "hemioct")]
 pub(crate) mod hemi_oct;
-#[cfg(feature = "polyhedral")]
+#[cfg(feature = "icosphere")]
 pub(crate) mod icosphere;
-#[cfg(feature = "spherical")]
+#[cfg(feature = "latlong")]
 pub(crate) mod latlong;
 pub(crate) mod names;
-#[cfg(feature = "octahedral")]
+#[cfg(feature = "oct")]
 pub(crate) mod oct;
-#[cfg(feature = "octahedral")]
+#[cfg(feature = "octant")]
 pub(crate) mod octant;
 pub(crate) mod octant_table;
-#[cfg(feature = "spherical")]
+#[cfg(feature = "phi-z")]
 pub(crate) mod phi_z;
-#[cfg(feature = "spherical")]
+#[cfg(feature = "theta-phi")]
 pub(crate) mod spherical;
 pub(crate) mod support;
 #[cfg(test)]
 pub(crate) mod testing;
-#[cfg(feature = "cartesian")]
+#[cfg(feature = "xyonly")]
 pub(crate) mod xy_only;
 
 use crate::batch::columns::{CodeColumn, Columns};
@@ -231,7 +231,7 @@ pub(crate) fn encode<S: Source, K, const PRECISE: bool>(
 ) where
     K: CodeKind<Shape = <S::Formula as Formula>::Shape>,
 {
-    if PRECISE && S::Formula::ONE_ENCODER {
+    if const { PRECISE && S::Formula::ONE_ENCODER } {
         return encode::<S, K, false>(source, v, codes);
     }
     map::<Columns<3>, CodeColumn<K>>(Encode::<S, PRECISE>(source), v, codes);

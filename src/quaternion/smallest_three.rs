@@ -300,6 +300,24 @@ mod tests {
     }
 
     #[test]
+    fn whole_numbers_of_steps_decode_alike_in_every_chart() {
+        const STEPS: std::ops::RangeInclusive<i32> = 0..=511;
+        let mut count = 0;
+        for (i, w) in STEPS.flat_map(|i| STEPS.map(move |w| (i, w))) {
+            let rest = 2 * 511 * 511 - i * i - w * w;
+            let j = (rest as f64).sqrt() as i32;
+            if j <= 511 && j * j == rest {
+                // (i, j, 0, w), of which w or i is left out.
+                let [own, other] = [code([i, j, 0], 3), code([j, 0, w], 0)];
+                let decoded = [own, other].map(|code| BITS10.decode::<f32>(I32x1(code)));
+                assert_eq!(decoded[0], decoded[1], "{i} {j} {w}");
+                count += 1;
+            }
+        }
+        assert!(count >= 12, "{count}");
+    }
+
+    #[test]
     fn the_rest_is_exact_where_it_is_longer_than_a_word() {
         let [m, i, j, l] = [524_287i64, 524_286, -3077, 70_055];
         let fields = Vec3::from([i, j, l].map(|f| I32x1(f as i32)));

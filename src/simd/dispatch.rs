@@ -18,14 +18,19 @@ const HAS_SIMD: bool = cfg!(any(
 pub(crate) fn dispatch<L: BatchLoop>(batch: L) {
     #[cfg(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64")))]
     let Some(batch) = super::x86::dispatch(batch) else { return };
-    let has_wide_form = match L::USE {
-        Use::Often => true,
-        Use::Sometimes | Use::Rare => !DETECTS,
-        Use::Moves => false,
-    };
-    if HAS_SIMD && has_wide_form {
+    if const { has_wide_form(L::USE) } {
         batch.run::<F32x8>();
     } else {
         batch.run::<f32>();
     }
+}
+
+/// Whether `wide`'s lanes are used. A constant, so that what is only called with them is not compiled.
+const fn has_wide_form(of: Use) -> bool {
+    HAS_SIMD
+        && match of {
+            Use::Often => true,
+            Use::Sometimes | Use::Rare => !DETECTS,
+            Use::Moves => false,
+        }
 }

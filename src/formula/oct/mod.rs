@@ -180,8 +180,16 @@ impl<P: Projection> Symmetric for Oct<P> {
     }
 }
 
-kernels!(Oct<Central>: Words; Oct<Warped>: Words; Oct<EqualArea>: Words; OctUnorm: Words);
-octant_kernels!(Oct<Central>, Oct<Warped>, Oct<EqualArea>);
+kernels!(Oct<Central>: Words; OctUnorm: Words);
+octant_kernels!(Oct<Central>);
+#[cfg(feature = "warpedoct")]
+kernels!(Oct<Warped>: Words);
+#[cfg(feature = "warpedoct")]
+octant_kernels!(Oct<Warped>);
+#[cfg(feature = "eqareaoct")]
+kernels!(Oct<EqualArea>: Words);
+#[cfg(feature = "eqareaoct")]
+octant_kernels!(Oct<EqualArea>);
 
 #[cfg(test)]
 mod tests {

@@ -70,8 +70,10 @@ impl Pair {
         if self.is_rgb8() {
             map2!(self.unpack::<V>(code), |p| (p - snorm_max(12)).min(snorm_max(12)))
         } else {
-            let fields = [code, code.shr_logical(self.half)];
-            map2!(fields, |p| p.sign_extend(self.half).max(-self.snorm_max()))
+            // Each field on top of the word, where what is below it changes nothing.
+            let below = 32 - self.half;
+            let fields = [code.shl(below), code.shl(below - self.half)];
+            map2!(fields, |p| p.max(-self.snorm_max() << below).shr_arithmetic(below))
         }
     }
 }
