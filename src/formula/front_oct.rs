@@ -87,12 +87,11 @@ impl Formula for FrontOct {
         for axis in 0..3 {
             let corner = base[axis] + step;
             candidates[axis][axis] = corner;
-            // Beyond the edge that faces the corner; in the lower half, the mirror image. That of x or y
-            // is farther than the corner, since the map is symmetric there.
-            let (mut beyond, mut mirrored) = (map_vec!(base, |c| c + step), base);
+            // Beyond the edge that faces the corner. Where that edge is on a plane between octants,
+            // the corner is nearer.
+            let mut beyond = map_vec!(base, |c| c + step);
             beyond[axis] = base[axis] - step;
-            mirrored[axis] = if axis == 2 { -corner } else { corner };
-            candidates[3 + axis] = Vec3::select(beyond[axis].lt(0.0), mirrored, beyond);
+            candidates[3 + axis] = Vec3::select(beyond[axis].lt(0.0), candidates[axis], beyond);
         }
         let mut closest = Closest::to_unit(v);
         for p in candidates {
@@ -182,6 +181,9 @@ mod tests {
 
     #[test]
     fn of_all_codes_the_nearest_is_found() {
-        assert_nearest(FrontOct::new(8, 2), 256, spiral(60));
+        // The coarser, the less alike are the two sides of a plane between octants.
+        for (bits, f) in [(4, 2), (6, 4), (8, 2), (8, 4)] {
+            assert_nearest(FrontOct::new(bits, f), 1 << bits, spiral(250));
+        }
     }
 }
