@@ -112,7 +112,7 @@ impl<G: Grid> Cartesian<G> {
 
 impl<G: Grid> Formula for Cartesian<G> {
     type Shape = G::Shape;
-    const PRECISE_USE: Use = if G::DISTINCT { Use::Sometimes } else { Use::Rare };
+    const PRECISE_USE: Use = if G::DISTINCT { Use::Often } else { Use::Rare };
 
     #[inline(always)]
     fn encode<V: Simd>(self, v: Vec3<V>) -> Code<Self, V> {
