@@ -8,9 +8,13 @@ use std::{env, fs};
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     let out = env::var_os("OUT_DIR").expect("cargo sets OUT_DIR");
-    fs::write(Path::new(&out).join("latlong_bands.rs"), latlong_bands())
-        .expect("OUT_DIR is writable");
-    fs::write(Path::new(&out).join("best_fit.bin"), best_fit()).expect("OUT_DIR is writable");
+    let write = |feature: &str, name: &str, table: fn() -> Vec<u8>| {
+        if env::var_os(feature).is_some() {
+            fs::write(Path::new(&out).join(name), table()).expect("OUT_DIR is writable");
+        }
+    };
+    write("CARGO_FEATURE_LATLONG", "latlong_bands.rs", || latlong_bands().into_bytes());
+    write("CARGO_FEATURE_XYZ", "best_fit.bin", best_fit);
 }
 
 /// CrytekBFN24's lengths: see src/formula/cartesian/best_fit.rs.

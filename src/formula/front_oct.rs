@@ -87,8 +87,8 @@ impl Formula for FrontOct {
         for axis in 0..3 {
             let corner = base[axis] + step;
             candidates[axis][axis] = corner;
-            // Beyond the edge that faces the corner. Where that edge is on a plane between octants,
-            // the corner is nearer.
+            // Beyond the edge that faces the corner. If that edge is on a plane between octants, an
+            // end of the edge or the corner is nearer.
             let mut beyond = map_vec!(base, |c| c + step);
             beyond[axis] = base[axis] - step;
             candidates[3 + axis] = Vec3::select(beyond[axis].lt(0.0), candidates[axis], beyond);
