@@ -38,7 +38,7 @@ use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::Words;
 use crate::batch::{Kernel, map, run};
 use crate::error::LengthMismatch;
-use crate::formula::support::bits::{snorm_max, unorm_max};
+use crate::formula::support::bits::{snorm_field, snorm_max, unorm_max};
 use crate::simd::{I32x1, Simd, SimdInt, Use};
 
 /// A grid of numbers, and the codes of its points.
@@ -232,7 +232,7 @@ impl Grid for SnormGrid {
     #[inline(always)]
     fn value<V: Simd>(self, code: V::Int) -> V {
         let max = snorm_max(self.bits);
-        V::from_int(code.sign_extend(self.bits).max(-max)) / max as f32
+        V::from_int(snorm_field::<V>(code, 0, self.bits)) / max as f32
     }
 }
 

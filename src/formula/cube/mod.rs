@@ -24,7 +24,7 @@ pub(crate) use angular::AngularCube;
 use core::marker::PhantomData;
 
 use super::octant_table::octant_kernels;
-use super::support::bits::snorm_max;
+use super::support::bits::{snorm_field, snorm_max};
 use super::support::closest::{Closest, corners};
 use super::support::sign::mirror_point;
 use super::{Formula, Symmetric, kernels};
@@ -105,9 +105,7 @@ impl<W: Spacing> Cube<W> {
     fn unpack<V: Simd>(self, code: V::Int) -> (V::Int, Vec3<V::Int>) {
         let negative = code.low_bits(1).eq(1);
         let axis = code.shr_logical(1).low_bits(2).min(2);
-        let [a, b] = map2!([3, 3 + self.side], |shift| {
-            code.shr_logical(shift).sign_extend(self.side).max(-self.max)
-        });
+        let [a, b] = map2!([3, 3 + self.side], |at| snorm_field::<V>(code, at, self.side));
         (axis, Vec3::new(V::Int::select(negative, -self.max, self.max), a, b))
     }
 

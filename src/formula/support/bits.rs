@@ -70,12 +70,18 @@ impl Pair {
         if self.is_rgb8() {
             map2!(self.unpack::<V>(code), |p| (p - snorm_max(12)).min(snorm_max(12)))
         } else {
-            // Each field on top of the word, where what is below it changes nothing.
-            let below = 32 - self.half;
-            let fields = [code.shl(below), code.shl(below - self.half)];
-            map2!(fields, |p| p.max(-self.snorm_max() << below).shr_arithmetic(below))
+            map2!([0, self.half], |at| snorm_field::<V>(code, at, self.half))
         }
     }
+}
+
+/// The snorm of `bits` bits above the lowest `at`. Its one pattern out of range reads as its
+/// neighbour.
+#[inline(always)]
+pub(crate) fn snorm_field<V: Simd>(code: V::Int, at: u32, bits: u32) -> V::Int {
+    // On top of the word, where what is below it changes nothing.
+    let below = 32 - bits;
+    code.shl(below - at).max(-snorm_max(bits) << below).shr_arithmetic(below)
 }
 
 /// 2^(bits-1) - 1: the greatest snorm of `bits` bits.
