@@ -1,7 +1,7 @@
 //! The values that each component may have.
 
 use crate::batch::storage::{CodeShape, Word, Words3};
-use crate::formula::support::bits::{snorm_field, snorm_max, unorm_max};
+use crate::formula::support::bits::{snorm_max, unorm_max};
 use crate::formula::support::half;
 use crate::simd::math::inv_sqrt;
 use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map3};
@@ -107,7 +107,10 @@ impl Steps {
             let bits = self.bits[0];
             map_vec!(fields, |index| index.low_bits(bits).shl(1) - unorm_max(bits))
         } else {
-            Vec3::from(map3!([0, 1, 2], |i: usize| snorm_field::<V>(fields[i], 0, self.bits[i])))
+            Vec3::from(map3!([0, 1, 2], |i: usize| {
+                let bits = self.bits[i];
+                fields[i].sign_extend(bits).max(-snorm_max(bits))
+            }))
         }
     }
 }
