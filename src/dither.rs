@@ -45,7 +45,7 @@
 //! it; Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
 
 use crate::batch::columns::{CodeColumn, Columns, Indices};
-use crate::batch::layout::{Codes, CodesMut, PART, Vectors, VectorsMut, columns, columns_mut};
+use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{Words, to_native};
 use crate::batch::{Kernel, map};
 use crate::codec::{Codec, Format, for_each_codec};
@@ -199,14 +199,12 @@ impl Dither {
         vectors: Vectors<'_, 3>,
         codes: CodesMut<'_>,
     ) {
-        let rotation = Rotation::of(format);
-        encode_numbered(self.index(first), vectors, codes, &|(vectors, numbers), codes| {
-            let mut buffer = [[0.0; PART]; 3];
-            let len = codes.len();
-            if let Some(turned) = columns_mut(&mut buffer, len) {
-                map::<Numbered, Columns<3>>(Turn(rotation), (vectors, numbers), turned);
-            }
-            encode(Vectors::Columns(columns(&buffer, len)), codes);
+        let turn = Turn(Rotation::of(format));
+        let mut number = self.index(first);
+        layout::encode_in_parts(vectors, codes, &mut |v, codes, mut turned| {
+            let numbers = next_numbers(&mut number, v);
+            map::<Numbered, Columns<3>>(turn, (v, numbers), turned.each_mut().map(|c| &mut **c));
+            encode(Vectors::Columns(turned.map(|c| &*c)), codes.into());
         });
     }
 
@@ -217,26 +215,23 @@ impl Dither {
         format: Format,
         first: u32,
         codes: Codes<'_>,
-        mut vectors: VectorsMut<'_, 3>,
+        vectors: VectorsMut<'_, 3>,
     ) {
-        let rotation = Rotation::of(format).back();
-        let mut buffer = [[0.0; PART]; 3];
-        let mut turned = [[0.0; PART]; 3];
-        let mut done = 0;
-        for codes in codes.parts(PART) {
-            let len = codes.len();
-            let numbers = Indices { first: self.index(first).wrapping_add(done as u32), len };
-            if let Some(turned) = columns_mut(&mut turned, len) {
-                decode(codes, VectorsMut::Columns(turned));
-            }
-            let part;
-            (part, vectors) = vectors.split_at(len);
-            part.write(&mut buffer, |to| {
-                map::<Numbered, Columns<3>>(Turn(rotation), (columns(&turned, len), numbers), to);
-            });
-            done += len;
-        }
+        let turn = Turn(Rotation::of(format).back());
+        let mut number = self.index(first);
+        layout::decode_in_parts(codes, vectors, &mut |codes, v, mut turned| {
+            decode(codes.into(), VectorsMut::Columns(turned.each_mut().map(|c| &mut **c)));
+            let turned = turned.map(|c| &*c);
+            map::<Numbered, Columns<3>>(turn, (turned, next_numbers(&mut number, turned)), v);
+        });
     }
+}
+
+/// A number for each vector, from `number` on, which is set to the one after them.
+fn next_numbers(number: &mut u32, [x, ..]: [&[f32]; 3]) -> Indices {
+    let numbers = Indices { first: *number, len: x.len() };
+    *number = number.wrapping_add(x.len() as u32);
+    numbers
 }
 
 /// What the rotations of all elements have in common.
@@ -345,32 +340,11 @@ impl<F: Lattice> Kernel<Numbered, CodeColumn<Words>> for Stochastic<F> {
 
 #[inline(always)]
 fn encode_batch<F: Lattice>(formula: F, first: u32, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-    encode_numbered(first, vectors, codes, &|vectors, codes| {
-        codes.write(|codes| {
-            map::<Numbered, CodeColumn<Words>>(Stochastic(formula), vectors, codes);
-        });
+    let mut number = first;
+    layout::encode(vectors, codes, &mut |v, codes| {
+        let numbers = next_numbers(&mut number, v);
+        map::<Numbered, CodeColumn<Words>>(Stochastic(formula), (v, numbers), codes);
     });
-}
-
-/// What encodes columns and their numbers.
-type NumberedKernel<'k> = &'k dyn Fn(([&[f32]; 3], Indices), CodesMut<'_>);
-
-/// Calls a kernel with vectors and their numbers, a part at a time.
-#[inline(never)]
-fn encode_numbered(
-    first: u32,
-    vectors: Vectors<'_, 3>,
-    codes: CodesMut<'_>,
-    kernel: NumberedKernel<'_>,
-) {
-    let mut buffer = [[0.0; PART]; 3];
-    let mut done = 0;
-    for codes in codes.parts(PART) {
-        let len = codes.len();
-        let numbers = Indices { first: first.wrapping_add(done as u32), len };
-        kernel((vectors.part(done, len, &mut buffer), numbers), codes);
-        done += len;
-    }
 }
 
 /// Implements the trait for the rows with the flag `stochastic`.
@@ -473,7 +447,7 @@ mod tests {
     #[test]
     fn batches_give_what_single_vectors_do() {
         // Across the ends of blocks and parts, and of the numbers.
-        const LEN: usize = PART + 35;
+        const LEN: usize = 256 + 35;
         let first = u32::MAX - 20;
         let x: [f32; LEN] = core::array::from_fn(|i| 0.01 * i as f32 - 1.0);
         let (y, z) = ([0.3; LEN], [-0.7; LEN]);

@@ -223,8 +223,7 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
     #[inline]
     fn encode_soa(frames: FrameSoa<'_>, codes: &mut [Self::Code]) -> Result<Skew, LengthMismatch> {
         frames.check(codes.len())?;
-        let (normals, tangents) = frames.vectors();
-        Ok(Self::encode_batch(normals, tangents, CodesMut::native(codes)))
+        Ok(Self::encode_batch(frames.vectors(), CodesMut::native(codes)))
     }
 
     /// [`encode_precise`](FrameCodec::encode_precise) for structures of arrays. Gives the input's
@@ -238,8 +237,7 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         codes: &mut [Self::Code],
     ) -> Result<Skew, LengthMismatch> {
         frames.check(codes.len())?;
-        let (normals, tangents) = frames.vectors();
-        Ok(Self::encode_batch_precise(normals, tangents, CodesMut::native(codes)))
+        Ok(Self::encode_batch_precise(frames.vectors(), CodesMut::native(codes)))
     }
 
     /// [`decode`](FrameCodec::decode) for structures of arrays.
@@ -249,8 +247,7 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
     #[inline]
     fn decode_soa(codes: &[Self::Code], frames: FrameSoaMut<'_>) -> Result<(), LengthMismatch> {
         frames.check(codes.len())?;
-        let (normals, tangents) = frames.vectors();
-        Self::decode_batch(Codes::native(codes), normals, tangents);
+        Self::decode_batch(Codes::native(codes), frames.vectors());
         Ok(())
     }
 
@@ -272,8 +269,8 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         codes: &mut [Self::Code],
     ) -> Result<Skew, LengthMismatch> {
         LengthMismatch::check_frame_aos(normals.len(), tangents.len(), codes.len())?;
-        let (normals, tangents) = (Vectors::rows(normals), Vectors::rows(tangents));
-        Ok(Self::encode_batch(normals, tangents, CodesMut::native(codes)))
+        let frames = (Vectors::rows(normals), Vectors::rows(tangents));
+        Ok(Self::encode_batch(frames, CodesMut::native(codes)))
     }
 
     /// [`encode_precise`](FrameCodec::encode_precise) for arrays of structures, as
@@ -288,8 +285,8 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         codes: &mut [Self::Code],
     ) -> Result<Skew, LengthMismatch> {
         LengthMismatch::check_frame_aos(normals.len(), tangents.len(), codes.len())?;
-        let (normals, tangents) = (Vectors::rows(normals), Vectors::rows(tangents));
-        Ok(Self::encode_batch_precise(normals, tangents, CodesMut::native(codes)))
+        let frames = (Vectors::rows(normals), Vectors::rows(tangents));
+        Ok(Self::encode_batch_precise(frames, CodesMut::native(codes)))
     }
 
     /// [`decode`](FrameCodec::decode) for arrays of structures: the first three floats of normals become
@@ -305,8 +302,8 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         tangents: &mut [[f32; 4]],
     ) -> Result<(), LengthMismatch> {
         LengthMismatch::check_frame_aos(normals.len(), tangents.len(), codes.len())?;
-        let (normals, tangents) = (VectorsMut::rows(normals), VectorsMut::rows(tangents));
-        Self::decode_batch(Codes::native(codes), normals, tangents);
+        let frames = (VectorsMut::rows(normals), VectorsMut::rows(tangents));
+        Self::decode_batch(Codes::native(codes), frames);
         Ok(())
     }
 }
@@ -370,28 +367,19 @@ macro_rules! frame_codecs {
 
             impl FrameKernels for $name {
                 #[inline(never)]
-                fn encode_batch(
-                    normals: Vectors<'_, 3>,
-                    tangents: Vectors<'_, 4>,
-                    codes: CodesMut<'_>,
-                ) -> Skew {
-                    kernels::encode::<_, { size_of::<$code>() }, false>(FORMULA, normals, tangents, codes)
+                fn encode_batch(frames: (Vectors<'_, 3>, Vectors<'_, 4>), codes: CodesMut<'_>) -> Skew {
+                    kernels::encode::<_, { size_of::<$code>() }, false>(FORMULA, frames, codes)
                 }
                 #[inline(never)]
                 fn encode_batch_precise(
-                    normals: Vectors<'_, 3>,
-                    tangents: Vectors<'_, 4>,
+                    frames: (Vectors<'_, 3>, Vectors<'_, 4>),
                     codes: CodesMut<'_>,
                 ) -> Skew {
-                    kernels::encode::<_, { size_of::<$code>() }, true>(FORMULA, normals, tangents, codes)
+                    kernels::encode::<_, { size_of::<$code>() }, true>(FORMULA, frames, codes)
                 }
                 #[inline(never)]
-                fn decode_batch(
-                    codes: Codes<'_>,
-                    normals: VectorsMut<'_, 3>,
-                    tangents: VectorsMut<'_, 4>,
-                ) {
-                    kernels::decode::<_, { size_of::<$code>() }>(FORMULA, codes, normals, tangents);
+                fn decode_batch(codes: Codes<'_>, frames: (VectorsMut<'_, 3>, VectorsMut<'_, 4>)) {
+                    kernels::decode::<_, { size_of::<$code>() }>(FORMULA, codes, frames);
                 }
             }
         };

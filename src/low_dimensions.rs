@@ -176,14 +176,14 @@ impl Kernel<CodeColumn<Words>, Columns<2>> for Decode {
 
 #[inline(never)]
 fn encode(circle: Circle, xy: [&[f32]; 2], codes: CodesMut<'_>) {
-    layout::encode(Vectors::Columns(xy), codes, &|xy, codes| {
+    layout::encode(Vectors::Columns(xy), codes, &mut |xy, codes| {
         map::<Columns<2>, CodeColumn<Words>>(Encode(circle), xy, codes);
     });
 }
 
 #[inline(never)]
 fn decode(circle: Circle, codes: Codes<'_>, xy: [&mut [f32]; 2]) {
-    layout::decode(codes, VectorsMut::Columns(xy), &|codes, xy, fence| {
+    layout::decode(codes, VectorsMut::Columns(xy), &mut |codes, xy, fence| {
         run::<CodeColumn<Words>, Columns<2>>(Decode(circle), codes, xy, fence);
     });
 }

@@ -159,13 +159,13 @@ macro_rules! scalars {
         impl $grid {
             #[inline(never)]
             fn encode_slice(self, values: &[f32], codes: CodesMut<'_>) {
-                layout::encode(Vectors::Columns([values]), codes, &|values, codes| {
+                layout::encode(Vectors::Columns([values]), codes, &mut |values, codes| {
                     map::<Columns<1>, CodeColumn<Words>>(Encode(self, self.bits), values, codes);
                 });
             }
             #[inline(never)]
             fn decode_slice(self, codes: Codes<'_>, values: &mut [f32]) {
-                layout::decode(codes, VectorsMut::Columns([values]), &|codes, values, fence| {
+                layout::decode(codes, VectorsMut::Columns([values]), &mut |codes, values, fence| {
                     run::<CodeColumn<Words>, Columns<1>>(Decode(self), codes, values, fence);
                 });
             }

@@ -1,6 +1,6 @@
 //! Spherical Fibonacci points in any number.
 
-use crate::batch::layout::{self, Codes, CodesMut};
+use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::error::LengthMismatch;
 use crate::formula::fibonacci::Fibonacci;
 use crate::formula::{Formula, Kernels};
@@ -65,7 +65,7 @@ impl SphericalFibonacci {
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
     pub fn encode_soa(self, v: Soa<'_>, indices: &mut [u32]) -> Result<(), LengthMismatch> {
         LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), indices.len())?;
-        layout::encode(v.into(), CodesMut::native(indices), &|v, codes| {
+        layout::encode(Vectors::from(v), CodesMut::native(indices), &mut |v, codes| {
             Kernels::encode(&self.0, v, codes);
         });
         Ok(())
@@ -77,7 +77,7 @@ impl SphericalFibonacci {
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
     pub fn decode_soa(self, indices: &[u32], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
         LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), indices.len())?;
-        layout::decode(Codes::native(indices), v.into(), &|codes, v, fence| {
+        layout::decode(Codes::native(indices), VectorsMut::from(v), &mut |codes, v, fence| {
             Kernels::decode(&self.0, codes, v, fence);
         });
         Ok(())

@@ -12,10 +12,10 @@ use crate::vector::{Soa, SoaMut};
 
 /// Elements that are converted at a time: more where each part costs a check of the processor.
 pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { FEW };
-/// The same, where nothing else needs room.
-pub(crate) const MANY: usize = if cfg!(feature = "std") { 1024 } else { FEW };
+/// The same, where at most four columns need room.
+const MANY: usize = if cfg!(feature = "std") { 1024 } else { FEW };
 /// A part of so few that the room for it costs little.
-pub(crate) const FEW: usize = 64;
+const FEW: usize = 64;
 
 /// Vectors of `K` components to read.
 #[derive(Clone, Copy)]
@@ -100,28 +100,28 @@ impl<'a> Codes<'a> {
         Codes { codes: CodeSlice { bytes, size }, native: 1 }
     }
 
-    pub(crate) fn len(self) -> usize {
+    fn len(self) -> usize {
         self.codes.len()
     }
 
     /// At most `len` codes at a time.
-    pub(crate) fn parts(self, len: usize) -> impl Iterator<Item = Self> {
+    fn parts(self, len: usize) -> impl Iterator<Item = Self> {
         let Codes { codes: CodeSlice { bytes, size }, native } = self;
         bytes
             .chunks((len * size).max(1))
             .map(move |bytes| Codes { codes: CodeSlice { bytes, size }, native })
     }
 
-    /// Whether their bytes are little-endian.
+    /// The codes, if their bytes are little-endian.
     #[inline]
-    pub(crate) fn is_direct(self) -> bool {
-        cfg!(target_endian = "little") || self.native == 1
+    fn direct(self) -> Option<CodeSlice<'a>> {
+        (cfg!(target_endian = "little") || self.native == 1).then_some(self.codes)
     }
 
     /// Calls a kernel with codes, at most [`MANY`] of them.
-    pub(crate) fn read(self, kernel: impl FnOnce(CodeSlice<'_>)) {
-        if self.is_direct() {
-            return kernel(self.codes);
+    fn read(self, kernel: impl FnOnce(CodeSlice<'_>)) {
+        if let Some(codes) = self.direct() {
+            return kernel(codes);
         }
         let CodeSlice { bytes, size } = self.codes;
         let mut buffer = [0; MAX_CODE * MANY];
@@ -130,6 +130,20 @@ impl<'a> Codes<'a> {
             swap_if_big_endian(swapped, self.native);
             kernel(CodeSlice { bytes: swapped, size });
         }
+    }
+}
+
+impl<'a> From<CodeSlice<'a>> for Codes<'a> {
+    #[inline]
+    fn from(codes: CodeSlice<'a>) -> Self {
+        Codes { codes, native: 1 }
+    }
+}
+
+impl<'a> From<CodeSliceMut<'a>> for CodesMut<'a> {
+    #[inline]
+    fn from(codes: CodeSliceMut<'a>) -> Self {
+        CodesMut { codes, native: 1 }
     }
 }
 
@@ -145,12 +159,12 @@ impl<'a> CodesMut<'a> {
         CodesMut { codes: CodeSliceMut { bytes, size }, native: 1 }
     }
 
-    pub(crate) fn len(&self) -> usize {
+    fn len(&self) -> usize {
         self.codes.bytes.len().checked_div(self.codes.size).unwrap_or(0)
     }
 
     /// At most `len` codes at a time.
-    pub(crate) fn parts(self, len: usize) -> impl Iterator<Item = Self> {
+    fn parts(self, len: usize) -> impl Iterator<Item = Self> {
         let CodesMut { codes: CodeSliceMut { bytes, size }, native } = self;
         bytes
             .chunks_mut((len * size).max(1))
@@ -159,118 +173,197 @@ impl<'a> CodesMut<'a> {
 
     /// Lets a kernel write codes.
     #[inline]
-    pub(crate) fn write(self, kernel: impl FnOnce(CodeSliceMut<'_>)) {
+    fn write(self, kernel: impl FnOnce(CodeSliceMut<'_>)) {
         let CodeSliceMut { bytes, size } = self.codes;
         kernel(CodeSliceMut { bytes: &mut *bytes, size });
         swap_if_big_endian(bytes, self.native);
     }
 }
 
-/// Encodes vectors of any layout. Inlined, so that a program has no code for layouts it does not use.
+/// What a batch reads beside codes, in any layout.
+pub(crate) trait Read<'a>: Copy {
+    /// The slices that kernels take.
+    type Kind: Input;
+    /// Room for `LEN` elements.
+    type Buffer<const LEN: usize>;
+    /// Number of columns in the room.
+    const COLUMNS: usize;
+
+    fn buffer<const LEN: usize>() -> Self::Buffer<LEN>;
+    /// The slices, if it consists of them.
+    fn direct(self) -> Option<InputSlices<'a, Self::Kind>>;
+    /// `len` elements from the one at `first` on, at most `LEN`.
+    fn part<'b, const LEN: usize>(
+        &'b self,
+        first: usize,
+        len: usize,
+        buffer: &'b mut Self::Buffer<LEN>,
+    ) -> InputSlices<'b, Self::Kind>;
+}
+
+/// What a batch writes beside codes, in any layout.
+pub(crate) trait Write<'a>: Sized {
+    /// The slices that kernels take.
+    type Kind: Output;
+    /// Room for `LEN` elements.
+    type Buffer<const LEN: usize>;
+    /// Number of columns in the room.
+    const COLUMNS: usize;
+
+    fn buffer<const LEN: usize>() -> Self::Buffer<LEN>;
+    /// Whether it consists of slices.
+    fn is_direct(&self) -> bool;
+    /// The slices, if it consists of them.
+    fn direct(self) -> Option<OutputSlices<'a, Self::Kind>>;
+    /// Size of the slices in bytes, and number of elements up to the first that is aligned for
+    /// streaming.
+    fn size_and_unaligned(slices: &OutputSlices<'a, Self::Kind>) -> (usize, usize);
+    /// The first `len` elements, and the others. No elements if there are fewer.
+    fn split_at(self, len: usize) -> (Self, Self);
+    /// Slices to write all `len` elements to, those of `buffer` if it has none itself.
+    fn slices<'b, const LEN: usize>(
+        &'b mut self,
+        len: usize,
+        buffer: &'b mut Self::Buffer<LEN>,
+    ) -> Option<OutputSlices<'b, Self::Kind>>;
+    /// Takes over what was written to the buffer.
+    fn take<const LEN: usize>(self, buffer: &Self::Buffer<LEN>);
+}
+
+type InputSlices<'a, K> = <K as Input>::Slices<'a>;
+type OutputSlices<'a, K> = <K as Output>::Slices<'a>;
+
+/// What encodes slices.
+type EncodeKernel<'k, 'a, R> =
+    &'k mut dyn FnMut(InputSlices<'_, <R as Read<'a>>::Kind>, CodeSliceMut<'_>);
+/// The same, at most [`MANY`] elements at a time, with `S` columns of room for them.
+type EncodePart<'k, 'a, R, const S: usize> =
+    &'k mut dyn FnMut(InputSlices<'_, <R as Read<'a>>::Kind>, CodeSliceMut<'_>, [&mut [f32]; S]);
+
+/// Encodes what has any layout. Inlined, so that a program has no code for layouts it does not use.
 #[inline]
-pub(crate) fn encode<const K: usize>(
-    vectors: Vectors<'_, K>,
+pub(crate) fn encode<'a, R: Read<'a>>(
+    input: R,
     codes: CodesMut<'_>,
-    kernel: &dyn Fn([&[f32]; K], CodeSliceMut<'_>),
+    kernel: EncodeKernel<'_, 'a, R>,
 ) {
-    match vectors {
-        Vectors::Columns(columns) => codes.write(|codes| kernel(columns, codes)),
-        Vectors::Rows { .. } => encode_rows(vectors, codes, kernel),
+    match input.direct() {
+        Some(slices) => codes.write(|codes| kernel(slices, codes)),
+        None => encode_in_parts(input, codes, &mut |slices, codes, []| kernel(slices, codes)),
     }
 }
 
+/// Encodes what has any layout a part at a time, in order.
 #[inline(never)]
-fn encode_rows<const K: usize>(
-    vectors: Vectors<'_, K>,
+pub(crate) fn encode_in_parts<'a, R: Read<'a>, const S: usize>(
+    input: R,
     codes: CodesMut<'_>,
-    kernel: &dyn Fn([&[f32]; K], CodeSliceMut<'_>),
+    kernel: EncodePart<'_, 'a, R, S>,
 ) {
     if codes.len() <= FEW {
-        encode_parts::<K, FEW>(vectors, codes, kernel);
+        encode_parts::<R, S, FEW>(input, codes, kernel);
+    } else if const { R::COLUMNS + S <= 4 } {
+        encode_parts::<R, S, MANY>(input, codes, kernel);
     } else {
-        encode_parts::<K, MANY>(vectors, codes, kernel);
+        encode_parts::<R, S, PART>(input, codes, kernel);
     }
 }
 
 #[inline(never)]
-fn encode_parts<const K: usize, const PART: usize>(
-    vectors: Vectors<'_, K>,
+fn encode_parts<'a, R: Read<'a>, const S: usize, const LEN: usize>(
+    input: R,
     codes: CodesMut<'_>,
-    kernel: &dyn Fn([&[f32]; K], CodeSliceMut<'_>),
+    kernel: EncodePart<'_, 'a, R, S>,
 ) {
-    let mut buffer = [[0.0; PART]; K];
-    for (part, codes) in codes.parts(PART).enumerate() {
-        let columns = vectors.part(part * PART, codes.len(), &mut buffer);
-        codes.write(|codes| kernel(columns, codes));
-    }
-}
-
-/// What decodes to columns. Its caller drops the fence.
-type DecodeKernel<'k, const K: usize> = &'k dyn Fn(CodeSlice<'_>, [&mut [f32]; K], &Fence);
-
-/// Decodes to vectors of any layout. Inlined as [`encode`].
-#[inline]
-pub(crate) fn decode<const K: usize>(
-    codes: Codes<'_>,
-    vectors: VectorsMut<'_, K>,
-    kernel: DecodeKernel<'_, K>,
-) {
-    match vectors {
-        VectorsMut::Columns(columns) if codes.is_direct() => {
-            decode_columns(codes.codes, columns, kernel);
+    let (mut buffer, mut room) = (R::buffer::<LEN>(), [[0.0; LEN]; S]);
+    for (part, codes) in codes.parts(LEN).enumerate() {
+        let len = codes.len();
+        let slices = input.part(part * LEN, len, &mut buffer);
+        if let Some(room) = columns_mut(&mut room, len) {
+            codes.write(|codes| kernel(slices, codes, room));
         }
-        _ => decode_rows(codes, vectors, kernel),
     }
 }
 
-#[inline(never)]
-fn decode_rows<const K: usize>(
+/// What decodes to slices. Its caller drops the fence.
+type DecodeKernel<'k, 'a, W> =
+    &'k mut dyn FnMut(CodeSlice<'_>, OutputSlices<'_, <W as Write<'a>>::Kind>, &Fence);
+/// The same, at most [`MANY`] elements at a time, with `S` columns of room for them.
+type DecodePart<'k, 'a, W, const S: usize> =
+    &'k mut dyn FnMut(CodeSlice<'_>, OutputSlices<'_, <W as Write<'a>>::Kind>, [&mut [f32]; S]);
+
+/// Decodes to any layout. Inlined as [`encode`].
+#[inline]
+pub(crate) fn decode<'a, W: Write<'a>>(
     codes: Codes<'_>,
-    vectors: VectorsMut<'_, K>,
-    kernel: DecodeKernel<'_, K>,
+    output: W,
+    kernel: DecodeKernel<'_, 'a, W>,
 ) {
-    if codes.len() <= FEW {
-        decode_parts::<K, FEW>(codes, vectors, kernel);
-    } else {
-        decode_parts::<K, MANY>(codes, vectors, kernel);
+    match codes.direct() {
+        Some(codes) if output.is_direct() => {
+            if let Some(slices) = output.direct() {
+                decode_direct::<W>(codes, slices, kernel);
+            }
+        }
+        _ => decode_in_parts(codes, output, &mut |codes, slices, []| {
+            kernel(codes, slices, &Fence::new(false));
+        }),
     }
 }
 
 #[inline(never)]
-fn decode_columns<const K: usize>(
+fn decode_direct<'a, W: Write<'a>>(
     codes: CodeSlice<'_>,
-    columns: [&mut [f32]; K],
-    kernel: DecodeKernel<'_, K>,
+    slices: OutputSlices<'a, W::Kind>,
+    kernel: DecodeKernel<'_, 'a, W>,
 ) {
-    let bytes = columns.first().map_or(0, |x| K * size_of::<f32>() * x.len());
+    let (bytes, unaligned) = W::size_and_unaligned(&slices);
     if !stream::is_large(bytes) {
-        return kernel(codes, columns, &Fence::new(false));
+        return kernel(codes, slices, &Fence::new(false));
     }
     // Streaming begins after the vectors whose x is not aligned. Columns are alike if they begin
     // alike.
-    let unaligned =
-        columns.first().map_or(0, |x| x.as_ptr().align_offset(stream::ALIGNMENT).min(x.len()));
     if let Some((unaligned_codes, codes)) = codes.split_at(unaligned)
-        && let Some((unaligned, columns)) = split_columns(columns, unaligned)
+        && let Some((unaligned, slices)) = W::Kind::split(slices, unaligned)
     {
         kernel(unaligned_codes, unaligned, &Fence::new(false));
-        kernel(codes, columns, &Fence::new(true));
+        kernel(codes, slices, &Fence::new(true));
+    }
+}
+
+/// Decodes to any layout a part at a time, in order.
+#[inline(never)]
+pub(crate) fn decode_in_parts<'a, W: Write<'a>, const S: usize>(
+    codes: Codes<'_>,
+    output: W,
+    kernel: DecodePart<'_, 'a, W, S>,
+) {
+    if codes.len() <= FEW {
+        decode_parts::<W, S, FEW>(codes, output, kernel);
+    } else if const { W::COLUMNS + S <= 4 } {
+        decode_parts::<W, S, MANY>(codes, output, kernel);
+    } else {
+        decode_parts::<W, S, PART>(codes, output, kernel);
     }
 }
 
 #[inline(never)]
-fn decode_parts<const K: usize, const PART: usize>(
+fn decode_parts<'a, W: Write<'a>, const S: usize, const LEN: usize>(
     codes: Codes<'_>,
-    mut vectors: VectorsMut<'_, K>,
-    kernel: DecodeKernel<'_, K>,
+    mut output: W,
+    kernel: DecodePart<'_, 'a, W, S>,
 ) {
-    let mut buffer = [[0.0; PART]; K];
-    for codes in codes.parts(PART) {
-        let part;
-        (part, vectors) = vectors.split_at(codes.len());
-        codes.read(|codes| {
-            part.write(&mut buffer, |columns| kernel(codes, columns, &Fence::new(false)));
-        });
+    let (mut buffer, mut room) = (W::buffer::<LEN>(), [[0.0; LEN]; S]);
+    for codes in codes.parts(LEN) {
+        let len = codes.len();
+        let (mut part, others) = output.split_at(len);
+        output = others;
+        if let Some(slices) = part.slices(len, &mut buffer)
+            && let Some(room) = columns_mut(&mut room, len)
+        {
+            codes.read(|codes| kernel(codes, slices, room));
+        }
+        part.take(&buffer);
     }
 }
 
@@ -308,51 +401,26 @@ pub(crate) fn map_codes(codes: CodesMut<'_>, kernel: &dyn Fn(CodeSlice<'_>, Code
     }
 }
 
-impl<'a, const K: usize> VectorsMut<'a, K> {
-    /// The first `len` vectors, and the others. No vectors if there are fewer.
-    pub(crate) fn split_at(self, len: usize) -> (Self, Self) {
+impl<'a, const K: usize> Read<'a> for Vectors<'a, K> {
+    type Kind = Columns<K>;
+    type Buffer<const LEN: usize> = [[f32; LEN]; K];
+    const COLUMNS: usize = K;
+
+    fn buffer<const LEN: usize>() -> [[f32; LEN]; K] {
+        [[0.0; LEN]; K]
+    }
+    #[inline]
+    fn direct(self) -> Option<[&'a [f32]; K]> {
         match self {
-            VectorsMut::Columns(columns) => {
-                let (first, others) = split_columns(columns, len).unwrap_or((empty(), empty()));
-                (VectorsMut::Columns(first), VectorsMut::Columns(others))
-            }
-            VectorsMut::Rows { bytes, stride } => {
-                let at = len.saturating_mul(stride).min(bytes.len());
-                let (first, others) = bytes.split_at_mut(at);
-                (
-                    VectorsMut::Rows { bytes: first, stride },
-                    VectorsMut::Rows { bytes: others, stride },
-                )
-            }
+            Vectors::Columns(columns) => Some(columns),
+            Vectors::Rows { .. } => None,
         }
     }
-
-    /// Writes columns. Rows, at most `PART`, are written by way of `buffer`.
-    pub(crate) fn write<const PART: usize>(
-        self,
-        buffer: &mut [[f32; PART]; K],
-        write: impl FnOnce([&mut [f32]; K]),
-    ) {
-        match self {
-            VectorsMut::Columns(columns) => write(columns),
-            VectorsMut::Rows { bytes, stride } => {
-                let len = bytes.len().div_ceil(stride.max(1));
-                if let Some(to) = columns_mut(buffer, len) {
-                    write(to);
-                    scatter(columns(buffer, len), bytes, stride);
-                }
-            }
-        }
-    }
-}
-
-impl<const K: usize> Vectors<'_, K> {
-    /// `len` vectors from the one at `first` on, at most `PART`.
-    pub(crate) fn part<'b, const PART: usize>(
+    fn part<'b, const LEN: usize>(
         &'b self,
         first: usize,
         len: usize,
-        buffer: &'b mut [[f32; PART]; K],
+        buffer: &'b mut [[f32; LEN]; K],
     ) -> [&'b [f32]; K] {
         match *self {
             Vectors::Columns(columns) => {
@@ -370,8 +438,124 @@ impl<const K: usize> Vectors<'_, K> {
     }
 }
 
+impl<'a, const K: usize> Write<'a> for VectorsMut<'a, K> {
+    type Kind = Columns<K>;
+    type Buffer<const LEN: usize> = [[f32; LEN]; K];
+    const COLUMNS: usize = K;
+
+    fn buffer<const LEN: usize>() -> [[f32; LEN]; K] {
+        [[0.0; LEN]; K]
+    }
+    #[inline]
+    fn is_direct(&self) -> bool {
+        matches!(self, VectorsMut::Columns(_))
+    }
+    #[inline]
+    fn direct(self) -> Option<ColumnsMut<'a, K>> {
+        match self {
+            VectorsMut::Columns(columns) => Some(columns),
+            VectorsMut::Rows { .. } => None,
+        }
+    }
+    fn size_and_unaligned(columns: &ColumnsMut<'a, K>) -> (usize, usize) {
+        let Some(x) = columns.first() else { return (0, 0) };
+        (K * size_of_val(*x), x.as_ptr().align_offset(stream::ALIGNMENT).min(x.len()))
+    }
+    fn split_at(self, len: usize) -> (Self, Self) {
+        match self {
+            VectorsMut::Columns(columns) => {
+                let (first, others) = split_columns(columns, len).unwrap_or((empty(), empty()));
+                (VectorsMut::Columns(first), VectorsMut::Columns(others))
+            }
+            VectorsMut::Rows { bytes, stride } => {
+                let at = len.saturating_mul(stride).min(bytes.len());
+                let (first, others) = bytes.split_at_mut(at);
+                (
+                    VectorsMut::Rows { bytes: first, stride },
+                    VectorsMut::Rows { bytes: others, stride },
+                )
+            }
+        }
+    }
+    fn slices<'b, const LEN: usize>(
+        &'b mut self,
+        len: usize,
+        buffer: &'b mut [[f32; LEN]; K],
+    ) -> Option<ColumnsMut<'b, K>> {
+        match self {
+            VectorsMut::Columns(columns) => Some(columns.each_mut().map(|column| &mut **column)),
+            VectorsMut::Rows { .. } => columns_mut(buffer, len),
+        }
+    }
+    fn take<const LEN: usize>(self, buffer: &[[f32; LEN]; K]) {
+        if let VectorsMut::Rows { bytes, stride } = self {
+            scatter(columns(buffer, bytes.len().div_ceil(stride.max(1))), bytes, stride);
+        }
+    }
+}
+
+impl<'a, A: Read<'a>, B: Read<'a>> Read<'a> for (A, B) {
+    type Kind = (A::Kind, B::Kind);
+    type Buffer<const LEN: usize> = (A::Buffer<LEN>, B::Buffer<LEN>);
+    const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
+
+    fn buffer<const LEN: usize>() -> Self::Buffer<LEN> {
+        (A::buffer(), B::buffer())
+    }
+    #[inline]
+    fn direct(self) -> Option<InputSlices<'a, Self::Kind>> {
+        Some((self.0.direct()?, self.1.direct()?))
+    }
+    fn part<'b, const LEN: usize>(
+        &'b self,
+        first: usize,
+        len: usize,
+        (a, b): &'b mut Self::Buffer<LEN>,
+    ) -> InputSlices<'b, Self::Kind> {
+        (self.0.part(first, len, a), self.1.part(first, len, b))
+    }
+}
+
+impl<'a, A: Write<'a>, B: Write<'a>> Write<'a> for (A, B) {
+    type Kind = (A::Kind, B::Kind);
+    type Buffer<const LEN: usize> = (A::Buffer<LEN>, B::Buffer<LEN>);
+    const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
+
+    fn buffer<const LEN: usize>() -> Self::Buffer<LEN> {
+        (A::buffer(), B::buffer())
+    }
+    #[inline]
+    fn is_direct(&self) -> bool {
+        self.0.is_direct() && self.1.is_direct()
+    }
+    #[inline]
+    fn direct(self) -> Option<OutputSlices<'a, Self::Kind>> {
+        Some((self.0.direct()?, self.1.direct()?))
+    }
+    fn size_and_unaligned((a, b): &OutputSlices<'a, Self::Kind>) -> (usize, usize) {
+        let ((a_size, unaligned), (b_size, _)) =
+            (A::size_and_unaligned(a), B::size_and_unaligned(b));
+        (a_size + b_size, unaligned)
+    }
+    fn split_at(self, len: usize) -> (Self, Self) {
+        let ((a, other_a), (b, other_b)) = (self.0.split_at(len), self.1.split_at(len));
+        ((a, b), (other_a, other_b))
+    }
+    fn slices<'b, const LEN: usize>(
+        &'b mut self,
+        len: usize,
+        (a, b): &'b mut Self::Buffer<LEN>,
+    ) -> Option<OutputSlices<'b, Self::Kind>> {
+        Some((self.0.slices(len, a)?, self.1.slices(len, b)?))
+    }
+    fn take<const LEN: usize>(self, (a, b): &Self::Buffer<LEN>) {
+        self.0.take(a);
+        self.1.take(b);
+    }
+}
+
 /// The first `len` elements of each column.
-pub(crate) fn columns<const K: usize, const PART: usize>(
+fn columns<const K: usize, const PART: usize>(
     buffer: &[[f32; PART]; K],
     len: usize,
 ) -> [&[f32]; K] {
@@ -379,7 +563,7 @@ pub(crate) fn columns<const K: usize, const PART: usize>(
 }
 
 /// The first `len` elements of each column, or `None` if there are fewer.
-pub(crate) fn columns_mut<const K: usize, const PART: usize>(
+fn columns_mut<const K: usize, const PART: usize>(
     buffer: &mut [[f32; PART]; K],
     len: usize,
 ) -> Option<[&mut [f32]; K]> {
@@ -529,7 +713,7 @@ mod tests {
                 let bytes = rows(len, stride, true);
                 let mut codes: Vec<u8> = [0xEE].repeat(2 * len);
                 let vectors = Vectors::Rows { bytes: &bytes, stride };
-                encode(vectors, CodesMut::little_endian(&mut codes, 2), &encode_numbers);
+                encode(vectors, CodesMut::little_endian(&mut codes, 2), &mut encode_numbers);
                 assert_eq!(codes, numbers(len), "{len} of {stride}");
             }
         }
@@ -542,7 +726,7 @@ mod tests {
                 let mut bytes = rows(len, stride, false);
                 let vectors = VectorsMut::Rows { bytes: &mut bytes, stride };
                 let codes = numbers(len);
-                decode(Codes::little_endian(&codes, 2), vectors, &decode_numbers);
+                decode(Codes::little_endian(&codes, 2), vectors, &mut decode_numbers);
                 assert_eq!(bytes, rows(len, stride, true), "{len} of {stride}");
             }
         }
@@ -555,10 +739,10 @@ mod tests {
             [x, y, z, 9.0]
         });
         let mut codes = [0u16; 5];
-        encode(Vectors::rows(&vectors), CodesMut::native(&mut codes), &encode_numbers);
+        encode(Vectors::rows(&vectors), CodesMut::native(&mut codes), &mut encode_numbers);
         assert_eq!(codes, [0, 1, 2, 3, 4]);
         let mut decoded = [[9.0f32; 4]; 5];
-        decode(Codes::native(&codes), VectorsMut::rows(&mut decoded), &decode_numbers);
+        decode(Codes::native(&codes), VectorsMut::rows(&mut decoded), &mut decode_numbers);
         assert_eq!(decoded, vectors);
     }
 
@@ -566,11 +750,92 @@ mod tests {
     fn columns_are_passed_on() {
         let [mut x, mut y, mut z] = [[0.0f32; 3]; 3];
         let codes = Codes::native(&[7u16, 8, 9]);
-        decode(codes, VectorsMut::Columns([&mut x, &mut y, &mut z]), &decode_numbers);
+        decode(codes, VectorsMut::Columns([&mut x, &mut y, &mut z]), &mut decode_numbers);
         assert_eq!([x[2], y[2], z[2]], vector(9));
         let mut back = [0u16; 3];
-        encode(Vectors::Columns([&x, &y, &z]), CodesMut::native(&mut back), &encode_numbers);
+        encode(Vectors::Columns([&x, &y, &z]), CodesMut::native(&mut back), &mut encode_numbers);
         assert_eq!(back, [7, 8, 9]);
+    }
+
+    /// Columns beside rows, whole and in parts.
+    #[test]
+    fn pairs_are_read_and_written_together() {
+        for len in LENGTHS {
+            let bytes = rows(len, 13, true);
+            let x: Vec<f32> = (0..len).map(|i| i as f32).collect();
+            let vectors = Vectors::Rows { bytes: &bytes, stride: 13 };
+            let mut codes: Vec<u8> = [0xEE].repeat(2 * len);
+            encode(
+                (Vectors::Columns([&x]), vectors),
+                CodesMut::little_endian(&mut codes, 2),
+                &mut |([numbers], v), codes| {
+                    assert_eq!(numbers, v[0]);
+                    encode_numbers(v, codes);
+                },
+            );
+            assert_eq!(codes, numbers(len));
+
+            let mut bytes = rows(len, 13, false);
+            let mut decoded: Vec<f32> = [9.0].repeat(len);
+            let vectors = VectorsMut::Rows { bytes: &mut bytes, stride: 13 };
+            let output = (vectors, VectorsMut::Columns([&mut decoded]));
+            decode(Codes::little_endian(&codes, 2), output, &mut |codes, (v, [numbers]), fence| {
+                decode_numbers(codes, v, fence);
+                for (to, code) in numbers.iter_mut().zip(codes.bytes.as_chunks().0) {
+                    *to = u16::from_le_bytes(*code).into();
+                }
+            });
+            assert_eq!((bytes, decoded), (rows(len, 13, true), x));
+        }
+    }
+
+    #[test]
+    fn pairs_of_columns_are_passed_on_whole() {
+        let (x, codes) = ([1.0f32; MANY + 5], [0u16; MANY + 5]);
+        let columns = Vectors::Columns([&x[..]]);
+        assert!((columns, columns).direct().is_some());
+        let rows = Vectors::<3>::rows(&[[1.0; 3]; 2]);
+        assert!((columns, rows).direct().is_none() && (rows, columns).direct().is_none());
+        let [mut a, mut b] = [[0.0f32; MANY + 5]; 2];
+        let output = (VectorsMut::Columns([&mut a]), VectorsMut::Columns([&mut b]));
+        decode(Codes::native(&codes), output, &mut |codes, ([a], [b]), _| {
+            assert_eq!([codes.len(), a.len(), b.len()], [MANY + 5; 3]);
+        });
+    }
+
+    /// Room is as long as a part, and parts come in order, columns too.
+    #[test]
+    fn parts_have_room() {
+        for len in LENGTHS {
+            let x: Vec<f32> = (0..len).map(|i| i as f32).collect();
+            let mut codes: Vec<u8> = [0xEE].repeat(2 * len);
+            let mut count = 0;
+            let input = Vectors::Columns([&x]);
+            encode_in_parts(
+                input,
+                CodesMut::little_endian(&mut codes, 2),
+                &mut |[x], codes, room| {
+                    let [a, b] = room;
+                    assert!(x[0] == count as f32 && x.len() <= MANY);
+                    assert_eq!([a.len(), b.len()], [x.len(); 2]);
+                    count += x.len();
+                    for (to, x) in codes.bytes.as_chunks_mut().0.iter_mut().zip(x) {
+                        *to = (*x as u16).to_le_bytes();
+                    }
+                },
+            );
+            assert_eq!((count, codes), (len, numbers(len)));
+
+            let (mut decoded, codes) = ([9.0].repeat(len), numbers(len));
+            let output = VectorsMut::Columns([&mut decoded]);
+            decode_in_parts(Codes::little_endian(&codes, 2), output, &mut |codes, [x], [room]| {
+                assert_eq!([codes.len(), room.len()], [x.len(); 2]);
+                for (to, code) in x.iter_mut().zip(codes.bytes.as_chunks().0) {
+                    *to = u16::from_le_bytes(*code).into();
+                }
+            });
+            assert_eq!(decoded, x);
+        }
     }
 
     #[test]
@@ -592,8 +857,8 @@ mod tests {
         for len in LENGTHS {
             let (from, mut to) = (numbers(len), [0xEE].repeat(2 * len));
             transcode(
-                &|codes, vectors| decode(codes, vectors, &decode_numbers),
-                &|vectors, codes| encode(vectors, codes, &encode_numbers),
+                &|codes, vectors| decode(codes, vectors, &mut decode_numbers),
+                &|vectors, codes| encode(vectors, codes, &mut encode_numbers),
                 Codes::little_endian(&from, 2),
                 CodesMut::little_endian(&mut to, 2),
             );

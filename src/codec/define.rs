@@ -213,19 +213,19 @@ macro_rules! define_codecs {
             }
 
             pub(super) fn encode_batch(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                layout::encode(vectors, codes, &|v, codes| match self {
+                layout::encode(vectors, codes, &mut |v, codes| match self {
                     $($(#[cfg(feature = $feature)] Format::$name => $name::encode_columns(v, codes),)*)*
                 });
             }
 
             pub(super) fn encode_batch_precise(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                layout::encode(vectors, codes, &|v, codes| match self {
+                layout::encode(vectors, codes, &mut |v, codes| match self {
                     $($(#[cfg(feature = $feature)] Format::$name => $name::encode_columns_precise(v, codes),)*)*
                 });
             }
 
             pub(crate) fn decode_batch(self, codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
-                layout::decode(codes, vectors, &|codes, v, fence| match self {
+                layout::decode(codes, vectors, &mut |codes, v, fence| match self {
                     $($(#[cfg(feature = $feature)] Format::$name => $name::decode_columns(codes, v, fence),)*)*
                 });
             }

@@ -246,15 +246,15 @@ pub(crate) mod sealed {
 
         #[inline]
         fn encode_batch(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-            layout::encode(vectors, codes, &Self::encode_columns);
+            layout::encode(vectors, codes, &mut Self::encode_columns);
         }
         #[inline]
         fn encode_batch_precise(vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-            layout::encode(vectors, codes, &Self::encode_columns_precise);
+            layout::encode(vectors, codes, &mut Self::encode_columns_precise);
         }
         #[inline]
         fn decode_batch(codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
-            layout::decode(codes, vectors, &Self::decode_columns);
+            layout::decode(codes, vectors, &mut Self::decode_columns);
         }
         #[inline]
         fn mirror_batch(codes: CodesMut<'_>, flips: [bool; 3]) {

@@ -85,7 +85,7 @@ pub(crate) fn look_up<F: Symmetric>(
     codes: Codes<'_>,
     vectors: VectorsMut<'_, 3>,
 ) {
-    layout::decode(codes, vectors, &|codes, v, fence| {
+    layout::decode(codes, vectors, &mut |codes, v, fence| {
         run::<CodeColumn<Words>, Columns<3>>(Mirrored(formula, octant), codes, v, fence);
     });
 }

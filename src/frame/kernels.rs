@@ -1,9 +1,9 @@
 //! The kernels of frame codecs, in any layout.
 
-use crate::batch::columns::{CodeColumn, Columns, Input, Output};
-use crate::batch::layout::{Codes, CodesMut, FEW, MANY, PART, Vectors, VectorsMut};
-use crate::batch::storage::{CodeIn, CodeSlice, CodeSliceMut};
-use crate::batch::{Kernel, map};
+use crate::batch::columns::{CodeColumn, Columns};
+use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::storage::CodeIn;
+use crate::batch::{Kernel, map, run};
 use crate::simd::{Simd, Use, Vec3};
 
 use super::Skew;
@@ -13,16 +13,11 @@ use super::formula::{FrameBytes, FrameFormula, Prepared, skew_degrees};
 /// handedness as their fourth component.
 pub trait FrameKernels {
     /// [`FrameCodec::encode_soa`](super::FrameCodec::encode_soa) and the like.
-    fn encode_batch(normals: Vectors<'_, 3>, tangents: Vectors<'_, 4>, codes: CodesMut<'_>)
-    -> Skew;
+    fn encode_batch(frames: (Vectors<'_, 3>, Vectors<'_, 4>), codes: CodesMut<'_>) -> Skew;
     /// [`FrameCodec::encode_soa_precise`](super::FrameCodec::encode_soa_precise) and the like.
-    fn encode_batch_precise(
-        normals: Vectors<'_, 3>,
-        tangents: Vectors<'_, 4>,
-        codes: CodesMut<'_>,
-    ) -> Skew;
+    fn encode_batch_precise(frames: (Vectors<'_, 3>, Vectors<'_, 4>), codes: CodesMut<'_>) -> Skew;
     /// [`FrameCodec::decode_soa`](super::FrameCodec::decode_soa) and the like.
-    fn decode_batch(codes: Codes<'_>, normals: VectorsMut<'_, 3>, tangents: VectorsMut<'_, 4>);
+    fn decode_batch(codes: Codes<'_>, frames: (VectorsMut<'_, 3>, VectorsMut<'_, 4>));
 }
 
 /// [`FrameFormula::encode`], and the squared sines of the skew.
@@ -34,8 +29,6 @@ struct Decode<F>(F);
 
 /// Normals and tangents.
 type Frames = (Columns<3>, Columns<4>);
-type FrameSlices<'a> = <Frames as Input>::Slices<'a>;
-type FrameSlicesMut<'a> = <Frames as Output>::Slices<'a>;
 
 impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
     Kernel<Frames, (CodeColumn<B>, Columns<1>)> for Encode<F, PRECISE>
@@ -62,16 +55,18 @@ impl<F: FrameFormula, B: FrameBytes> Kernel<CodeColumn<B>, Frames> for Decode<F>
     }
 }
 
-/// The most skewed frame so far.
+/// The most skewed of the frames so far.
 #[derive(Default)]
 struct Worst {
     sin_squared: f32,
     index: usize,
+    /// Number of frames so far.
+    count: usize,
 }
 
 impl Worst {
-    /// Considers frames from the one with the index `first` on.
-    fn consider(&mut self, first: usize, sines: &[f32]) {
+    /// Considers the next frames.
+    fn consider(&mut self, sines: &[f32]) {
         // None is negative, so they are in the order of their bits. Compilers vectorise maxima of
         // integers, and comparisons of a number of elements that they know.
         let greatest = sines.iter().fold(0, |most, sine| most.max(sine.to_bits() as i32)) as u32;
@@ -84,72 +79,28 @@ impl Worst {
                 .unwrap_or(blocks.len());
             let rest = sines.get(16 * before..).unwrap_or_default();
             self.sin_squared = f32::from_bits(greatest);
-            self.index = first + 16 * before + rest.iter().position(is_greatest).unwrap_or(0);
+            self.index = self.count + 16 * before + rest.iter().position(is_greatest).unwrap_or(0);
         }
+        self.count += sines.len();
     }
 }
 
 #[inline(always)]
 pub(super) fn encode<F: FrameFormula, const N: usize, const PRECISE: bool>(
     formula: F,
-    normals: Vectors<'_, 3>,
-    tangents: Vectors<'_, 4>,
+    frames: (Vectors<'_, 3>, Vectors<'_, 4>),
     codes: CodesMut<'_>,
 ) -> Skew
 where
     [u8; N]: FrameBytes,
 {
-    encode_any(normals, tangents, codes, &|frames, codes, sines| {
-        let output = (codes, [sines]);
-        map::<Frames, (CodeColumn<[u8; N]>, Columns<1>)>(
-            Encode::<F, PRECISE>(formula),
-            frames,
-            output,
-        );
-    })
-}
-
-/// What encodes columns.
-type EncodeKernel<'k> = &'k dyn Fn(FrameSlices<'_>, CodeSliceMut<'_>, &mut [f32]);
-
-/// Columns need no room for their parts, so these can be large.
-#[inline(never)]
-fn encode_any(
-    normals: Vectors<'_, 3>,
-    tangents: Vectors<'_, 4>,
-    codes: CodesMut<'_>,
-    kernel: EncodeKernel<'_>,
-) -> Skew {
-    match (normals, tangents) {
-        (Vectors::Columns(_), Vectors::Columns(_)) if codes.len() > FEW => {
-            encode_parts::<MANY, 0>(normals, tangents, codes, kernel)
-        }
-        _ if codes.len() > FEW => encode_parts::<PART, PART>(normals, tangents, codes, kernel),
-        _ => encode_parts::<FEW, FEW>(normals, tangents, codes, kernel),
-    }
-}
-
-#[inline(never)]
-fn encode_parts<const PART: usize, const ROWS: usize>(
-    normals: Vectors<'_, 3>,
-    tangents: Vectors<'_, 4>,
-    codes: CodesMut<'_>,
-    kernel: EncodeKernel<'_>,
-) -> Skew {
-    let (mut normal_buffer, mut tangent_buffer) = ([[0.0; ROWS]; 3], [[0.0; ROWS]; 4]);
-    let mut sines = [0.0; PART];
     let mut worst = Worst::default();
-    let mut first = 0;
-    for codes in codes.parts(PART) {
-        let len = codes.len();
-        let normals = normals.part(first, len, &mut normal_buffer);
-        let tangents = tangents.part(first, len, &mut tangent_buffer);
-        if let Some(sines) = sines.get_mut(..len) {
-            codes.write(|codes| kernel((normals, tangents), codes, sines));
-            worst.consider(first, sines);
-        }
-        first += len;
-    }
+    layout::encode_in_parts(frames, codes, &mut |frames, codes, [sines]| {
+        let kernel = Encode::<F, PRECISE>(formula);
+        let output = (codes, [&mut *sines]);
+        map::<Frames, (CodeColumn<[u8; N]>, Columns<1>)>(kernel, frames, output);
+        worst.consider(sines);
+    });
     Skew { degrees: skew_degrees(worst.sin_squared), index: worst.index }
 }
 
@@ -157,50 +108,11 @@ fn encode_parts<const PART: usize, const ROWS: usize>(
 pub(super) fn decode<F: FrameFormula, const N: usize>(
     formula: F,
     codes: Codes<'_>,
-    normals: VectorsMut<'_, 3>,
-    tangents: VectorsMut<'_, 4>,
+    frames: (VectorsMut<'_, 3>, VectorsMut<'_, 4>),
 ) where
     [u8; N]: FrameBytes,
 {
-    decode_any(codes, normals, tangents, &|codes, frames| {
-        map::<CodeColumn<[u8; N]>, Frames>(Decode(formula), codes, frames);
+    layout::decode(codes, frames, &mut |codes, frames, fence| {
+        run::<CodeColumn<[u8; N]>, Frames>(Decode(formula), codes, frames, fence);
     });
-}
-
-/// What decodes to columns.
-type DecodeKernel<'k> = &'k dyn Fn(CodeSlice<'_>, FrameSlicesMut<'_>);
-
-#[inline(never)]
-fn decode_any(
-    codes: Codes<'_>,
-    normals: VectorsMut<'_, 3>,
-    tangents: VectorsMut<'_, 4>,
-    kernel: DecodeKernel<'_>,
-) {
-    match (normals, tangents) {
-        (VectorsMut::Columns(normals), VectorsMut::Columns(tangents)) if codes.is_direct() => {
-            codes.read(|codes| kernel(codes, (normals, tangents)));
-        }
-        (normals, tangents) => decode_parts(codes, normals, tangents, kernel),
-    }
-}
-
-#[inline(never)]
-fn decode_parts(
-    codes: Codes<'_>,
-    mut normals: VectorsMut<'_, 3>,
-    mut tangents: VectorsMut<'_, 4>,
-    kernel: DecodeKernel<'_>,
-) {
-    let (mut normal_buffer, mut tangent_buffer) = ([[0.0; PART]; 3], [[0.0; PART]; 4]);
-    for codes in codes.parts(PART) {
-        let (normals_part, tangents_part);
-        (normals_part, normals) = normals.split_at(codes.len());
-        (tangents_part, tangents) = tangents.split_at(codes.len());
-        normals_part.write(&mut normal_buffer, |normals| {
-            tangents_part.write(&mut tangent_buffer, |tangents| {
-                codes.read(|codes| kernel(codes, (normals, tangents)));
-            });
-        });
-    }
 }

@@ -70,7 +70,7 @@ pub(super) fn encode<R: Rotation, const N: usize, const PRECISE: bool>(
 ) where
     [u8; N]: CodeBytes<Shape = R::Shape>,
 {
-    layout::encode(quaternions, codes, &|q, codes| {
+    layout::encode(quaternions, codes, &mut |q, codes| {
         map::<Columns<4>, CodeColumn<[u8; N]>>(Encode::<R, PRECISE>(rotation), q, codes);
     });
 }
@@ -83,7 +83,7 @@ pub(super) fn decode<R: Rotation, const N: usize>(
 ) where
     [u8; N]: CodeBytes<Shape = R::Shape>,
 {
-    layout::decode(codes, quaternions, &|codes, q, fence| {
+    layout::decode(codes, quaternions, &mut |codes, q, fence| {
         run::<CodeColumn<[u8; N]>, Columns<4>>(Decode(rotation), codes, q, fence);
     });
 }
