@@ -43,7 +43,7 @@ macro_rules! precise_axes {
 macro_rules! define_codecs {
     ($(
         #[cfg(feature = $feature:literal)]
-        $family:literal {$(
+        $family:literal, mirrors $mirrors:tt {$(
             $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
                 exact $axes:tt $(/ $axes_precise:tt)?,
                 $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
@@ -61,6 +61,7 @@ macro_rules! define_codecs {
             #[doc = ""]
             #[doc = concat!(
                 "Axes that round-trip exactly: ", axes_text!($axes), $("; with `encode_precise`: ", axes_text!($axes_precise),)? ".",
+                " Axes with exact [mirror images](Codec#operations-on-codes): ", axes_text!($mirrors), ".",
                 " Feature: `", $feature, "`."
             )]
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -201,6 +202,13 @@ macro_rules! define_codecs {
             #[inline]
             pub const fn exact_axes_precise(self) -> &'static str {
                 match self {$($(#[cfg(feature = $feature)] Format::$name => precise_axes!($axes $($axes_precise)?),)*)*}
+            }
+
+            /// The axes in which the mirror images of all codes are points of the format, such as "X Y", so
+            /// that [`Codec::mirror`] is exact; "" if there are none.
+            #[inline]
+            pub const fn exact_mirrors(self) -> &'static str {
+                match self {$($(#[cfg(feature = $feature)] Format::$name => $mirrors,)*)*}
             }
 
             /// Calls `v` with the type of this codec.

@@ -35,17 +35,13 @@ pub(crate) use table::{codec_table, for_each_codec};
 /// what `encode_precise` gives for the decoded vector, or that negated or mirrored: a canonical code. In a hemisphere's format, a
 /// direction mirrored in Z falls below the rim, and so is put on it.
 ///
-/// Where a mirror image is a point of the format, it is exact: doing it twice gives the canonical code again, and negating
-/// is mirroring in X, Y and Z in turn. It is found in integers, without decoding, except for these, which decode, encode
-/// precisely, and so give the nearest point, in that time:
+/// A codec's page lists the axes in which every mirror image is a point of the format. In these, `mirror` is exact and works on
+/// integers: doing it twice gives the canonical code again, and if all three are listed, `negate` is mirroring in each in turn.
+/// In the others, a code whose image is no point is decoded and encoded precisely, which gives the nearest. Half way between
+/// two points, as in X of phi-z and latlong, `f32` rounding decides.
 ///
-/// - in Z, and negated: HemiOct, XYOnly, frontoct, quadfrontoct and oct-unorm,
-/// - in X, and negated: phi-z, latlong, and latlongD on parallels with an odd number of points,
-/// - in X and Z, and negated: of disk projections as they are, without a stretch, the few codes whose image would be in
-///   column 0 of the lower hemisphere, which does not exist,
-/// - fibonacci; and snorm16x3, xyz-unorm16x3 and float16x3, where images are exact up to `f32` rounding.
-///
-/// Half way between two points, as in X of phi-z and latlong, `f32` rounding decides. `Float32x3` flips signs, those of NaN too.
+/// Images of snorm16x3, xyz-unorm16x3 and float16x3 are exact up to `f32` rounding, and take that longer way.
+/// `Float32x3` flips signs, those of NaN too.
 pub trait Codec: Copy + 'static + sealed::Batch {
     /// One packed vector. Its bits are laid out as the codec's page says.
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;

@@ -19,10 +19,7 @@ use unitpack::quaternion::{
 };
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{
-    AngularCube16, Axis, CodeInt, Codec, Cube16, EqArea16, Fibonacci16, FrontOct16, HemiOct16,
-    Icosphere162, LatLong16D, Oct8, Oct16, OctUnorm8x2, Octant16, PhiZUnorm8x2, SignedOct21,
-    Snorm5x3, Soa, SoaMut, Spherical16, SphericalFibonacci, StereoConcentric16, WarpedCube16,
-    XyOnly16,
+    CodeInt, Codec, HemiOct16, Oct16, Soa, SoaMut, SphericalFibonacci, WarpedCube16, for_each_codec,
 };
 
 use crate::LEN;
@@ -57,7 +54,12 @@ pub fn report() {
     row.print("fibonacci");
     let mut row = Row::new();
     row.dither::<Oct16>().dither::<HemiOct16>().dither::<WarpedCube16>();
-    row.stochastic::<Oct8>().stochastic::<Oct16>();
+    macro_rules! stochastic {
+        ($name:ident) => {
+            row.stochastic::<unitpack::$name>();
+        };
+    }
+    for_each_codec!(stochastic: stochastic);
     row.print("dither");
     frames::<OctAngle32>();
     frames::<OctAngle64>();
@@ -69,19 +71,14 @@ pub fn report() {
     row.dense::<7, u8>().dense::<12, u16>().dense::<22, u32>();
     row.print("dense");
     let mut row = Row::new();
-    row.octant_table::<Oct8>().octant_table::<HemiOct16>().octant_table::<XyOnly16>();
-    row.octant_table::<WarpedCube16>().octant_table::<AngularCube16>();
+    macro_rules! octant_table {
+        ($name:ident) => {
+            row.octant_table::<unitpack::$name>();
+        };
+    }
+    for_each_codec!(octant: octant_table);
     // Tables only decode.
     line(format_args!("{:20} {:16} {:016x}", "octant-table", "", row.decode.finish()));
-    // One of each family: mirrored in x and y, and in z and negated.
-    let mut row = Row::new();
-    row.mirrored::<Oct16>().mirrored::<OctUnorm8x2>().mirrored::<FrontOct16>();
-    row.mirrored::<HemiOct16>().mirrored::<SignedOct21>().mirrored::<XyOnly16>();
-    row.mirrored::<Snorm5x3>().mirrored::<Spherical16>().mirrored::<PhiZUnorm8x2>();
-    row.mirrored::<EqArea16>().mirrored::<StereoConcentric16>().mirrored::<LatLong16D>();
-    row.mirrored::<Fibonacci16>().mirrored::<Cube16>().mirrored::<AngularCube16>();
-    row.mirrored::<Octant16>().mirrored::<Icosphere162>();
-    row.print("mirrored");
 }
 
 /// The line of one codec of frames.
@@ -318,24 +315,6 @@ impl Row {
             self.decode.floats(&[frame.handedness]);
         }
         digest_codes(&codes.map(C::canonical), &mut self.decode);
-    }
-
-    fn mirrored<C: Codec<Code: CodeInt>>(&mut self) -> &mut Self {
-        let codes = self.codes::<C::Code>();
-        let slice = |operation: fn(&mut [C::Code])| {
-            let mut codes = codes;
-            operation(&mut codes);
-            codes.map(C::Code::into)
-        };
-        self.encode.words(slice(|codes| C::mirror_slice(codes, Axis::X)));
-        self.encode.words(slice(|codes| C::mirror_slice(codes, Axis::Y)));
-        self.encode.words(codes.map(|code| C::mirror(code, Axis::X).into()));
-        self.encode.words(codes.map(|code| C::mirror(code, Axis::Y).into()));
-        self.decode.words(slice(|codes| C::mirror_slice(codes, Axis::Z)));
-        self.decode.words(slice(C::negate_slice));
-        self.decode.words(codes.map(|code| C::mirror(code, Axis::Z).into()));
-        self.decode.words(codes.map(|code| C::negate(code).into()));
-        self
     }
 
     fn snorm12x2(&mut self) {

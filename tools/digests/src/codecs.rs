@@ -1,9 +1,9 @@
-//! The digests of the codecs: `encode`, `encode_precise` and `decode`.
+//! The digests of the codecs: `encode`, `encode_precise`, `decode`, and `mirror` with `negate`.
 
 use core::array;
 
 use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
-use unitpack::{Codec, Format, LengthMismatch, Soa, SoaMut, Visitor};
+use unitpack::{Axis, Codec, Format, LengthMismatch, Soa, SoaMut, Visitor};
 
 use crate::LEN;
 use crate::digest::Digest;
@@ -30,7 +30,11 @@ pub fn report() {
             one.encode_precise,
         );
         let decode = decode(format, &one);
-        line(format_args!("{:20} {encode:016x} {precise:016x} {decode:016x}", format.name()));
+        let mirror = format.visit(Mirrored);
+        line(format_args!(
+            "{:20} {encode:016x} {precise:016x} {decode:016x} {mirror:016x}",
+            format.name(),
+        ));
     }
 }
 
@@ -130,4 +134,37 @@ fn decode(format: Format, one: &Singles) -> u64 {
         }
     }
     digest.finish()
+}
+
+/// Gives the digest of a codec's codes mirrored in each axis, and negated.
+struct Mirrored;
+
+impl Visitor for Mirrored {
+    type Output = u64;
+    fn visit<C: Codec>(self) -> u64 {
+        let size = size_of::<C::Code>();
+        let mut bytes = [0; CODE * LEN];
+        Random::new().codes(size, &mut bytes[..size * LEN]);
+        let mut codes = [C::Code::zeroed(); LEN];
+        for (code, bytes) in codes.iter_mut().zip(bytes.chunks_exact(size)) {
+            bytes_of_mut(code).copy_from_slice(bytes);
+            swap_to_little_endian::<C::Code>(bytes_of_mut(code));
+        }
+        let mut digest = Digest::new();
+        let mut add = |codes: [C::Code; LEN]| {
+            codes.iter().for_each(|code| {
+                digest_codes(C::FORMAT, &mut to_bytes::<C>(*code)[..size], &mut digest)
+            });
+        };
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let mut many = codes;
+            C::mirror_slice(&mut many, axis);
+            add(many);
+            add(codes.map(|code| C::mirror(code, axis)));
+        }
+        add(codes.map(C::negate));
+        C::negate_slice(&mut codes);
+        add(codes);
+        digest.finish()
+    }
 }
