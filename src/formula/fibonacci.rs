@@ -9,8 +9,10 @@
 //!
 //! Near a latitude the points form a lattice in index and azimuth. It is spanned by the steps of F and F' points,
 //! two Fibonacci numbers in a row, which are turned by frac(F G / 2^32) and frac(F' G / 2^32): little, and in
-//! opposite directions. Since F frac(F' g) - F' frac(F g) = +-1, how many of each lead from a point to
-//! v is a matter of four products. Which pair spans the squarest cells depends on N (1 - z^2) alone.
+//! opposite directions. Since F frac(F' g) - F' frac(F g) = +-1, t F' steps of the one and -t F of the other turn by t
+//! and stay at the same latitude. So they lead from the point nearest to v's latitude to v's cell, up to a fifth of a
+//! step. All four corners are looked at, so that this is near enough.
+//! Which pair spans the squarest cells depends on N (1 - z^2) alone.
 //!
 //! Canonical: every index. Indices from N on read as N - 1. No axis survives exactly.
 //!
@@ -86,13 +88,10 @@ impl Formula for Fibonacci {
         let v = v.normalize();
         let Vec3 { x, y, z } = v;
         let rr = x * x + y * y;
-        // Number of points nearer to the pole of the own hemisphere, from its side, where 1 - |z| is exact.
+        // The point nearest in latitude, counted from the pole of the own hemisphere, from whose side 1 - |z| is exact.
         let height = rr * (0.5 * self.n as f32) / (z.abs() + 1.0) - 0.5;
         let whole = height.round_int_wide();
-        let rest = height - V::from_int(whole);
-        let lower = z.lt(0.0);
-        let start = V::Int::select(lower, last - whole, whole);
-        let rest = V::select(lower, -rest, rest);
+        let start = V::Int::select(z.lt(0.0), last - whole, whole);
         // The turn from there to v, as a fraction of 2^32.
         let azimuth = (atan2_half_turns(y, x) * (1 << 24) as f32).round_int_wide().shl(7);
         let turn = azimuth - start * G;
@@ -104,18 +103,15 @@ impl Formula for Fibonacci {
         let number = V::gather(&NUMBERS, k - 2);
         let next = (V::from_int(number) * 1.618_034).round_int();
         const PER_TURN: f32 = 1.0 / 65536.0 / 65536.0;
-        let by_number = V::from_int(number * G) * PER_TURN;
-        let by_next = V::from_int(next * G) * PER_TURN;
         let turn = V::from_int(turn) * PER_TURN;
-        let a = turn * V::from_int(next) - rest * by_next;
-        let b = rest * by_number - turn * V::from_int(number);
-        let [a, b] = map2!([a, b], |c| c.negate_where_negative(by_number).floor().round_int());
+        // Every other Fibonacci number turns back.
+        let turn = turn.negate_where_negative(V::from_int(number * G));
+        let [a, b] = [turn * V::from_int(next), -turn * V::from_int(number)];
+        let [a, b] = map2!([a, b], |c| c.floor().round_int());
         let corner = start + a * number + b * next;
         let mut closest = Closest::to_unit(v);
         for i in [corner, corner + next, corner + number, corner + number + next] {
-            // Beyond a pole, back.
-            let i = V::Int::select(i.lt(0), V::Int::splat(-1) - i, i);
-            let i = V::Int::select(last.lt(i), last + last + 1 - i, i);
+            // Beyond a pole there is none.
             let i = i.clamp(0, self.n - 1);
             closest.consider(i, self.point(i));
         }

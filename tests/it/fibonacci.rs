@@ -31,7 +31,7 @@ fn the_nearest_of_all_points_is_found() {
     let mut rng = Rng::new(5);
     for n in (1..300).chain([377, 610, 987, 1000, 1597, 2000, 4181, 5000]) {
         let all: Vec<_> = (0..n).map(|i| exact(i, n)).collect();
-        for v in directions(&mut rng, n, 300) {
+        for v in directions(&mut rng, n, 1500) {
             let w = normalize(widen(v));
             let least = all.iter().map(|&p| chord_squared(w, p)).fold(4.0, f64::min).sqrt();
             let index = points(n).encode(v);
