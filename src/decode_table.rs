@@ -35,7 +35,7 @@
 
 use core::marker::PhantomData;
 
-use crate::batch::layout::{Codes, PART, VectorsMut};
+use crate::batch::layout::{self, Codes, PART, VectorsMut};
 use crate::batch::storage::from_native;
 use crate::codec::{Codec, Format, for_each_codec};
 use crate::error::LengthMismatch;
@@ -86,8 +86,11 @@ impl<'a, C: Codec> DecodeTable<'a, C> {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the four slices are not equally long; nothing is written then.
+    #[inline]
     pub fn decode_soa(&self, codes: &[C::Code], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
-        look_up_soa(codes, v, |&code| self.decode(code))
+        LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+        look_up(self.vectors, Codes::native(codes), v.into());
+        Ok(())
     }
 
     /// [`decode`](Self::decode) for arrays of structures of `N` floats. The first three become x, y
@@ -95,12 +98,15 @@ impl<'a, C: Codec> DecodeTable<'a, C> {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
     pub fn decode_aos<const N: usize>(
         &self,
         codes: &[C::Code],
         v: &mut [[f32; N]],
     ) -> Result<(), LengthMismatch> {
-        look_up_aos(codes, v, |code| self.decode(code))
+        LengthMismatch::check_aos(v.len(), codes.len())?;
+        look_up(self.vectors, Codes::native(codes), VectorsMut::rows(v));
+        Ok(())
     }
 }
 
@@ -156,11 +162,8 @@ impl<'a> FormatTable<'a> {
     pub fn decode_bytes(&self, bytes: &[u8], v: SoaMut<'_>) -> Result<(), LengthMismatch> {
         let size = self.format.code_size();
         LengthMismatch::check_bytes([v.x.len(), v.y.len(), v.z.len()], bytes.len(), size)?;
-        if size == 1 {
-            look_up_soa(bytes, v, |&code| self.decode(code.into()))
-        } else {
-            look_up_soa(bytes.as_chunks().0, v, |&code| self.decode(u16::from_le_bytes(code)))
-        }
+        look_up(self.vectors, Codes::little_endian(bytes, size), v.into());
+        Ok(())
     }
 }
 
@@ -301,32 +304,25 @@ fn index<C: Codec>(code: C::Code) -> usize {
     }
 }
 
-/// There is nothing to compute, so there are no lanes.
-#[inline]
-fn look_up_soa<C>(
-    codes: &[C],
-    SoaMut { x, y, z }: SoaMut<'_>,
-    look_up: impl Fn(&C) -> [f32; 3],
-) -> Result<(), LengthMismatch> {
-    LengthMismatch::check_soa(x.len(), y.len(), z.len(), codes.len())?;
-    for (((code, x), y), z) in codes.iter().zip(x).zip(y).zip(z) {
-        [*x, *y, *z] = look_up(code);
+/// Decodes by a table of all codes, which have one or two bytes.
+#[inline(never)]
+fn look_up(table: &[[f32; 3]], codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
+    match codes.size() {
+        1 => look_up_sized(table, codes, vectors, |[code]: [u8; 1]| code.into()),
+        _ => look_up_sized(table, codes, vectors, u16::from_le_bytes),
     }
-    Ok(())
 }
 
-#[inline]
-fn look_up_aos<C: Copy, const N: usize>(
-    codes: &[C],
-    vectors: &mut [[f32; N]],
-    look_up: impl Fn(C) -> [f32; 3],
-) -> Result<(), LengthMismatch> {
-    const { assert!(N >= 3, "a vector has at least three components") };
-    LengthMismatch::check_aos(vectors.len(), codes.len())?;
-    for (code, v) in codes.iter().zip(vectors) {
-        [v[0], v[1], v[2]] = look_up(*code);
-    }
-    Ok(())
+/// There is nothing to compute, so there are no lanes.
+#[inline(never)]
+fn look_up_sized<const SIZE: usize>(
+    table: &[[f32; 3]],
+    codes: Codes<'_>,
+    vectors: VectorsMut<'_, 3>,
+    integer: impl Fn([u8; SIZE]) -> u16,
+) {
+    let used = table.len().saturating_sub(1) as u16;
+    layout::decode_each(codes, vectors, |code| look_up3(table, (integer(code) & used).into()));
 }
 
 #[cfg(all(test, feature = "octahedral"))]

@@ -158,7 +158,6 @@ pub const fn unpack_tag(word: u32) -> (u32, u8) {
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn pack_tag_slice(codes: &[u32], tags: &[u8], words: &mut [u32]) -> Result<(), LengthMismatch> {
     LengthMismatch::check_tagged(codes.len(), tags.len(), words.len())?;
     for ((&code, &tag), word) in codes.iter().zip(tags).zip(words) {
@@ -171,7 +170,6 @@ pub fn pack_tag_slice(codes: &[u32], tags: &[u8], words: &mut [u32]) -> Result<(
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn unpack_tag_slice(
     words: &[u32],
     codes: &mut [u32],
@@ -201,7 +199,6 @@ pub const fn unpack_10_10_10_2(word: u32) -> ([u16; 3], u8) {
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn pack_10_10_10_2_slice(
     fields: &[[u16; 3]],
     tags: &[u8],
@@ -218,7 +215,6 @@ pub fn pack_10_10_10_2_slice(
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn unpack_10_10_10_2_slice(
     words: &[u32],
     fields: &mut [[u16; 3]],
@@ -247,7 +243,6 @@ pub const fn unpack_11_11_10(word: u32) -> [u16; 3] {
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn pack_11_11_10_slice(fields: &[[u16; 3]], words: &mut [u32]) -> Result<(), LengthMismatch> {
     LengthMismatch::check_values(fields.len(), words.len())?;
     for (&fields, word) in fields.iter().zip(words) {
@@ -260,7 +255,6 @@ pub fn pack_11_11_10_slice(fields: &[[u16; 3]], words: &mut [u32]) -> Result<(),
 ///
 /// # Errors
 /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
-#[inline]
 pub fn unpack_11_11_10_slice(words: &[u32], fields: &mut [[u16; 3]]) -> Result<(), LengthMismatch> {
     LengthMismatch::check_values(fields.len(), words.len())?;
     for (&word, fields) in words.iter().zip(fields) {

@@ -104,6 +104,11 @@ impl<'a> Codes<'a> {
         self.codes.len()
     }
 
+    /// Size of a code in bytes.
+    pub(crate) fn size(self) -> usize {
+        self.codes.size
+    }
+
     /// At most `len` codes at a time.
     fn parts(self, len: usize) -> impl Iterator<Item = Self> {
         let Codes { codes: CodeSlice { bytes, size }, native } = self;
@@ -184,12 +189,11 @@ impl<'a> CodesMut<'a> {
 pub(crate) trait Read<'a>: Copy {
     /// The slices that kernels take.
     type Kind: Input;
-    /// Room for `LEN` elements.
-    type Buffer<const LEN: usize>;
+    /// Room for `LEN` elements, made when it is needed.
+    type Buffer<const LEN: usize>: Default;
     /// Number of columns in the room.
     const COLUMNS: usize;
 
-    fn buffer<const LEN: usize>() -> Self::Buffer<LEN>;
     /// The slices, if it consists of them.
     fn direct(self) -> Option<InputSlices<'a, Self::Kind>>;
     /// `len` elements from the one at `first` on, at most `LEN`.
@@ -205,12 +209,11 @@ pub(crate) trait Read<'a>: Copy {
 pub(crate) trait Write<'a>: Sized {
     /// The slices that kernels take.
     type Kind: Output;
-    /// Room for `LEN` elements.
-    type Buffer<const LEN: usize>;
+    /// Room for `LEN` elements, made when it is needed.
+    type Buffer<const LEN: usize>: Default;
     /// Number of columns in the room.
     const COLUMNS: usize;
 
-    fn buffer<const LEN: usize>() -> Self::Buffer<LEN>;
     /// Whether it consists of slices.
     fn is_direct(&self) -> bool;
     /// The slices, if it consists of them.
@@ -275,7 +278,7 @@ fn encode_parts<'a, R: Read<'a>, const S: usize, const LEN: usize>(
     codes: CodesMut<'_>,
     kernel: EncodePart<'_, 'a, R, S>,
 ) {
-    let (mut buffer, mut room) = (R::buffer::<LEN>(), [[0.0; LEN]; S]);
+    let (mut buffer, mut room) = (R::Buffer::<LEN>::default(), [[0.0; LEN]; S]);
     for (part, codes) in codes.parts(LEN).enumerate() {
         let len = codes.len();
         let slices = input.part(part * LEN, len, &mut buffer);
@@ -353,7 +356,7 @@ fn decode_parts<'a, W: Write<'a>, const S: usize, const LEN: usize>(
     mut output: W,
     kernel: DecodePart<'_, 'a, W, S>,
 ) {
-    let (mut buffer, mut room) = (W::buffer::<LEN>(), [[0.0; LEN]; S]);
+    let (mut buffer, mut room) = (W::Buffer::<LEN>::default(), [[0.0; LEN]; S]);
     for codes in codes.parts(LEN) {
         let len = codes.len();
         let (mut part, others) = output.split_at(len);
@@ -367,7 +370,70 @@ fn decode_parts<'a, W: Write<'a>, const S: usize, const LEN: usize>(
     }
 }
 
-/// Decodes codes and encodes them again, a part at a time.
+/// Decodes to any layout one vector after the other, where there is so little to do that a part's way by columns would cost
+/// as much again. A code has `SIZE` bytes, little-endian here.
+#[inline(always)]
+pub(crate) fn decode_each<const SIZE: usize>(
+    codes: Codes<'_>,
+    vectors: VectorsMut<'_, 3>,
+    decode: impl Fn([u8; SIZE]) -> [f32; 3],
+) {
+    let decode = |mut code: [u8; SIZE]| {
+        swap_if_big_endian(&mut code, codes.native);
+        decode(code)
+    };
+    let (codes, _) = codes.codes.bytes.as_chunks();
+    match vectors {
+        VectorsMut::Columns([x, y, z]) => {
+            for (((code, x), y), z) in codes.iter().zip(x).zip(y).zip(z) {
+                [*x, *y, *z] = decode(*code);
+            }
+        }
+        VectorsMut::Rows { bytes, stride } => match stride {
+            12 => decode_rows(codes, bytes.as_chunks_mut::<12>().0, decode),
+            QUAD => {
+                let (rows, rest) = bytes.as_chunks_mut::<QUAD>();
+                let (whole, last) = codes.split_at(codes.len().min(rows.len()));
+                decode_rows(whole, rows, decode);
+                decode_rows(last, [rest], decode);
+            }
+            _ => decode_rows(codes, bytes.chunks_mut(stride.max(1)), decode),
+        },
+    }
+}
+
+/// Decodes to the first bytes of rows.
+#[inline(always)]
+fn decode_rows<const SIZE: usize, R: AsMut<[u8]>>(
+    codes: &[[u8; SIZE]],
+    rows: impl IntoIterator<Item = R>,
+    decode: impl Fn([u8; SIZE]) -> [f32; 3],
+) {
+    for (code, mut row) in codes.iter().zip(rows) {
+        if let Some(to) = row.as_mut().first_chunk_mut() {
+            *to = bytemuck::cast::<[f32; 3], [u8; 12]>(decode(*code));
+        }
+    }
+}
+
+/// Decodes codes, and gives the vectors away, a part at a time.
+#[inline(never)]
+pub(crate) fn decode_for(
+    decode: &dyn Fn(Codes<'_>, VectorsMut<'_, 3>),
+    codes: Codes<'_>,
+    take: &mut dyn FnMut([&[f32]; 3]),
+) {
+    let mut buffer = [[0.0; PART]; 3];
+    for codes in codes.parts(PART) {
+        let len = codes.len();
+        if let Some(columns) = columns_mut(&mut buffer, len) {
+            decode(codes, VectorsMut::Columns(columns));
+        }
+        take(columns(&buffer, len));
+    }
+}
+
+/// Decodes codes and encodes them again.
 #[inline(never)]
 pub(crate) fn transcode(
     decode: &dyn Fn(Codes<'_>, VectorsMut<'_, 3>),
@@ -375,14 +441,12 @@ pub(crate) fn transcode(
     from: Codes<'_>,
     to: CodesMut<'_>,
 ) {
-    let mut buffer = [[0.0; PART]; 3];
-    for (from, to) in from.parts(PART).zip(to.parts(PART)) {
-        let len = from.len();
-        if let Some(columns) = columns_mut(&mut buffer, len) {
-            decode(from, VectorsMut::Columns(columns));
+    let mut parts = to.parts(PART);
+    decode_for(decode, from, &mut |v| {
+        if let Some(to) = parts.next() {
+            encode(Vectors::Columns(v), to);
         }
-        encode(Vectors::Columns(columns(&buffer, len)), to);
-    }
+    });
 }
 
 /// Changes codes in place.
@@ -403,12 +467,9 @@ pub(crate) fn map_codes(codes: CodesMut<'_>, kernel: &dyn Fn(CodeSlice<'_>, Code
 
 impl<'a, const K: usize> Read<'a> for Vectors<'a, K> {
     type Kind = Columns<K>;
-    type Buffer<const LEN: usize> = [[f32; LEN]; K];
+    type Buffer<const LEN: usize> = Option<[[f32; LEN]; K]>;
     const COLUMNS: usize = K;
 
-    fn buffer<const LEN: usize>() -> [[f32; LEN]; K] {
-        [[0.0; LEN]; K]
-    }
     #[inline]
     fn direct(self) -> Option<[&'a [f32]; K]> {
         match self {
@@ -420,13 +481,14 @@ impl<'a, const K: usize> Read<'a> for Vectors<'a, K> {
         &'b self,
         first: usize,
         len: usize,
-        buffer: &'b mut [[f32; LEN]; K],
+        buffer: &'b mut Option<[[f32; LEN]; K]>,
     ) -> [&'b [f32]; K] {
         match *self {
             Vectors::Columns(columns) => {
                 columns.map(|column| column.get(first..first + len).unwrap_or_default())
             }
             Vectors::Rows { bytes, stride } => {
+                let buffer = buffer.get_or_insert([[0.0; LEN]; K]);
                 if let Some(rows) = bytes.get(first * stride..)
                     && let Some(columns) = columns_mut(buffer, len)
                 {
@@ -440,12 +502,9 @@ impl<'a, const K: usize> Read<'a> for Vectors<'a, K> {
 
 impl<'a, const K: usize> Write<'a> for VectorsMut<'a, K> {
     type Kind = Columns<K>;
-    type Buffer<const LEN: usize> = [[f32; LEN]; K];
+    type Buffer<const LEN: usize> = Option<[[f32; LEN]; K]>;
     const COLUMNS: usize = K;
 
-    fn buffer<const LEN: usize>() -> [[f32; LEN]; K] {
-        [[0.0; LEN]; K]
-    }
     #[inline]
     fn is_direct(&self) -> bool {
         matches!(self, VectorsMut::Columns(_))
@@ -480,15 +539,17 @@ impl<'a, const K: usize> Write<'a> for VectorsMut<'a, K> {
     fn slices<'b, const LEN: usize>(
         &'b mut self,
         len: usize,
-        buffer: &'b mut [[f32; LEN]; K],
+        buffer: &'b mut Option<[[f32; LEN]; K]>,
     ) -> Option<ColumnsMut<'b, K>> {
         match self {
             VectorsMut::Columns(columns) => Some(columns.each_mut().map(|column| &mut **column)),
-            VectorsMut::Rows { .. } => columns_mut(buffer, len),
+            VectorsMut::Rows { .. } => columns_mut(buffer.get_or_insert([[0.0; LEN]; K]), len),
         }
     }
-    fn take<const LEN: usize>(self, buffer: &[[f32; LEN]; K]) {
-        if let VectorsMut::Rows { bytes, stride } = self {
+    fn take<const LEN: usize>(self, buffer: &Option<[[f32; LEN]; K]>) {
+        if let VectorsMut::Rows { bytes, stride } = self
+            && let Some(buffer) = buffer
+        {
             scatter(columns(buffer, bytes.len().div_ceil(stride.max(1))), bytes, stride);
         }
     }
@@ -499,9 +560,6 @@ impl<'a, A: Read<'a>, B: Read<'a>> Read<'a> for (A, B) {
     type Buffer<const LEN: usize> = (A::Buffer<LEN>, B::Buffer<LEN>);
     const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
 
-    fn buffer<const LEN: usize>() -> Self::Buffer<LEN> {
-        (A::buffer(), B::buffer())
-    }
     #[inline]
     fn direct(self) -> Option<InputSlices<'a, Self::Kind>> {
         Some((self.0.direct()?, self.1.direct()?))
@@ -521,9 +579,6 @@ impl<'a, A: Write<'a>, B: Write<'a>> Write<'a> for (A, B) {
     type Buffer<const LEN: usize> = (A::Buffer<LEN>, B::Buffer<LEN>);
     const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
 
-    fn buffer<const LEN: usize>() -> Self::Buffer<LEN> {
-        (A::buffer(), B::buffer())
-    }
     #[inline]
     fn is_direct(&self) -> bool {
         self.0.is_direct() && self.1.is_direct()
@@ -728,6 +783,13 @@ mod tests {
                 let codes = numbers(len);
                 decode(Codes::little_endian(&codes, 2), vectors, &mut decode_numbers);
                 assert_eq!(bytes, rows(len, stride, true), "{len} of {stride}");
+
+                let mut bytes = rows(len, stride, false);
+                let vectors = VectorsMut::Rows { bytes: &mut bytes, stride };
+                decode_each(Codes::little_endian(&codes, 2), vectors, |code| {
+                    vector(u16::from_le_bytes(code).into())
+                });
+                assert_eq!(bytes, rows(len, stride, true), "{len} of {stride}, one by one");
             }
         }
     }

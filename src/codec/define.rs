@@ -61,7 +61,8 @@ macro_rules! define_codecs {
             #[doc = ""]
             #[doc = concat!(
                 "Axes that round-trip exactly: ", axes_text!($axes), $("; with `encode_precise`: ", axes_text!($axes_precise),)? ".",
-                " Axes with exact [mirror images](Codec#operations-on-codes): ", axes_text!($mirrors), ".",
+                " Axes with exact [mirror images](Codec#operations-on-codes): ", axes_text!($mirrors),
+                finer_text!($($flag)*), ".",
                 " Feature: `", $feature, "`."
             )]
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -248,6 +249,19 @@ macro_rules! axes_text {
     };
     ($axes:tt) => {
         $axes
+    };
+}
+
+/// What qualifies an exact mirror image of a codec with these flags.
+macro_rules! finer_text {
+    (finer $($rest:ident)*) => {
+        ", up to `f32` rounding"
+    };
+    ($flag:ident $($rest:ident)*) => {
+        finer_text!($($rest)*)
+    };
+    () => {
+        ""
     };
 }
 

@@ -35,13 +35,14 @@ pub(crate) use table::{codec_table, for_each_codec};
 /// what `encode_precise` gives for the decoded vector, or that negated or mirrored: a canonical code. In a hemisphere's format, a
 /// direction mirrored in Z falls below the rim, and so is put on it.
 ///
-/// A codec's page lists the axes in which every mirror image is a point of the format. In these, `mirror` is exact and works on
-/// integers: doing it twice gives the canonical code again, and if all three are listed, `negate` is mirroring in each in turn.
+/// A codec's page lists the axes in which every mirror image is a point of the format. In these, `mirror` is exact: doing it
+/// twice gives the canonical code again, and if all three are listed, `negate` is mirroring in each in turn. It works on
+/// integers, without decoding.
 /// In the others, a code whose image is no point is decoded and encoded precisely, which gives the nearest. Half way between
 /// two points, as in X of phi-z and latlong, `f32` rounding decides.
 ///
-/// Images of snorm16x3, xyz-unorm16x3 and float16x3 are exact up to `f32` rounding, and take that longer way.
-/// `Float32x3` flips signs, those of NaN too.
+/// Formats whose pages say "up to `f32` rounding" are finer than `f32`, and take that longer way everywhere. `Float32x3` flips
+/// signs, those of NaN too.
 pub trait Codec: Copy + 'static + sealed::Batch {
     /// One packed vector. Its bits are laid out as the codec's page says.
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;

@@ -1,6 +1,7 @@
 //! What packing does to given vectors, and which format is fine enough.
 
 use super::{Codec, Format};
+use crate::batch::layout::{self, Codes, VectorsMut};
 use crate::error::LengthMismatch;
 use crate::formula::support::sanitize::sanitize;
 use crate::simd::Vec3;
@@ -45,25 +46,39 @@ impl ErrorReport {
     ///
     /// # Errors
     /// [`LengthMismatch`] if the four slices are not equally long.
+    #[inline]
     pub fn of<C: Codec>(v: Soa<'_>, codes: &[C::Code]) -> Result<Self, LengthMismatch> {
         LengthMismatch::check_soa(v.x.len(), v.y.len(), v.z.len(), codes.len())?;
+        Ok(Self::of_codes(v, &C::decode_batch, Codes::native(codes)))
+    }
+
+    #[inline(never)]
+    fn of_codes(
+        v: Soa<'_>,
+        decode: &dyn Fn(Codes<'_>, VectorsMut<'_, 3>),
+        codes: Codes<'_>,
+    ) -> Self {
         let mut report = ErrorReport::default();
         let (mut sum, mut squares) = (0.0, 0.0);
-        for ((&code, &x), (&y, &z)) in codes.iter().zip(v.x).zip(v.y.iter().zip(v.z)) {
-            let error = degrees_between([x, y, z], C::decode(code));
-            sum += error;
-            squares += error * error;
-            if error > report.max_degrees {
-                (report.max_degrees, report.worst) = (error, report.count);
+        let mut vectors = v.x.iter().zip(v.y).zip(v.z);
+        layout::decode_for(decode, codes, &mut |[x, y, z]| {
+            for (((x, y), z), v) in x.iter().zip(y).zip(z).zip(&mut vectors) {
+                let ((a, b), c) = v;
+                let error = degrees_between([*a, *b, *c], [*x, *y, *z]);
+                sum += error;
+                squares += error * error;
+                if error > report.max_degrees {
+                    (report.max_degrees, report.worst) = (error, report.count);
+                }
+                report.count += 1;
             }
-            report.count += 1;
-        }
+        });
         if report.count > 0 {
             let count = report.count as f64;
             report.mean_degrees = sum / count;
             report.rms_degrees = root(squares / count);
         }
-        Ok(report)
+        report
     }
 }
 

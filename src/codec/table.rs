@@ -8,7 +8,9 @@
 //! - `hot`: has kernels of its own, in which the formula is constant;
 //! - `octant`: decodes the same in all octants ([`Symmetric`](crate::formula::Symmetric)), in at most 16
 //!   bits, so that it has an [`OctantTable`](crate::decode_table::OctantTable);
-//! - `stochastic`: has [`StochasticRounding`](crate::dither::StochasticRounding).
+//! - `stochastic`: has [`StochasticRounding`](crate::dither::StochasticRounding);
+//! - `finer`: `f32` does not tell all points apart. What decodes alike is one direction, "nearest" and "exact" are up to
+//!   rounding, and `encode_precise` searches lengths.
 
 /// Calls a macro with all rows, behind what else it is to be given.
 #[doc(hidden)]
@@ -78,8 +80,8 @@ macro_rules! codec_table {
         Snorm8x3: [u8; 3] = "snorm8x3", 24 bits, 0.3920 / 0.3203 degrees, exact "±X ±Y ±Z", Xyz::snorm([8, 8, 8]), hot;
         Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, exact "±X ±Y ±Z", Xyz::snorm([10, 10, 10]), hot;
         Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, exact "±X ±Y ±Z", Xyz::snorm([11, 11, 10]);
-        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Xyz16::snorm();
-        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, exact "±X ±Y ±Z", Xyz16::halves();
+        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Xyz16::snorm(), finer;
+        Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, exact "±X ±Y ±Z", Xyz16::halves(), finer;
     }
     #[cfg(feature = "xyz")]
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included.", mirrors "X Y Z" {
@@ -281,7 +283,7 @@ macro_rules! codec_table {
      them. Decoding divides by the length. `encode_precise` gives the nearest direction of any length. xyz-unorm16x3 is finer \
      than `f32`, so there what decodes alike is one direction.", mirrors "X Y Z" {
         XyzUnorm8x3: [u8; 3] = "xyz-unorm8x3", 24 bits, 0.3898 / 0.3191 degrees, exact "", Xyz::unorm(8), hot;
-        XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, exact "", Xyz16::unorm();
+        XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, exact "", Xyz16::unorm(), finer;
     }
     #[cfg(feature = "xyz")]
     "Crytek's best-fit normals: the bits of [`XyzUnorm8x3`], of the length that a table of 256 KiB gives for the direction. \
@@ -339,6 +341,9 @@ macro_rules! for_each_codec {
         $crate::for_each_codec! { @call $call $row }
     };
     (@flags [stochastic $call:tt] $row:tt stochastic $($rest:ident)*) => {
+        $crate::for_each_codec! { @call $call $row }
+    };
+    (@flags [finer $call:tt] $row:tt finer $($rest:ident)*) => {
         $crate::for_each_codec! { @call $call $row }
     };
     (@flags $job:tt $row:tt $flag:ident $($rest:ident)*) => {

@@ -122,7 +122,14 @@ impl AnyCodec {
 
     /// Whether `f32` does not tell all codes apart: what decodes alike is then one direction.
     pub fn is_finer_than_f32(&self) -> bool {
-        matches!(self.format, Format::Snorm16x3 | Format::XyzUnorm16x3 | Format::Float16x3)
+        let mut is_finer = false;
+        macro_rules! check {
+            ($name:ident) => {
+                is_finer |= self.format == Format::$name;
+            };
+        }
+        unitpack::for_each_codec!(finer: check);
+        is_finer
     }
 }
 

@@ -5,7 +5,7 @@ use unitpack::Format;
 use unitpack_test::codes::{decode_slice, encode_slice};
 use unitpack_test::digests::{Section, digest};
 use unitpack_test::random::Rng;
-use unitpack_test::{Arrays, Effort, Vector};
+use unitpack_test::{AnyCodec, Arrays, Effort, Vector};
 
 /// The digest of the bits of floats, one component of all vectors after another. All NaN count as
 /// one, since moving them changes their bits on some machines.
@@ -71,7 +71,7 @@ fn codes() -> Vec<u8> {
 
 fn encode(vectors: &[Vector], format: Format, effort: Effort) -> u64 {
     // The search of these is slow: a part will do.
-    let slow = matches!(format, Format::Snorm16x3 | Format::Float16x3);
+    let slow = AnyCodec::of(format).is_finer_than_f32();
     let every = if slow && effort == Effort::Precise { 16 } else { 1 };
     let v: Arrays = vectors.iter().copied().step_by(every).collect();
     let mut bytes = vec![0; v.count() * format.code_size()];

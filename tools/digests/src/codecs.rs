@@ -3,7 +3,7 @@
 use core::array;
 
 use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
-use unitpack::{Axis, Codec, Format, LengthMismatch, Soa, SoaMut, Visitor};
+use unitpack::{Axis, Codec, Format, LengthMismatch, Soa, SoaMut, Visitor, for_each_codec};
 
 use crate::LEN;
 use crate::digest::Digest;
@@ -20,7 +20,13 @@ const SLOW_BLOCKS: usize = 2;
 pub fn report() {
     for &format in Format::ALL {
         let one = format.visit(One);
-        let slow = matches!(format, Format::Snorm16x3 | Format::Float16x3 | Format::XyzUnorm16x3);
+        let mut slow = false;
+        macro_rules! finer {
+            ($name:ident) => {
+                slow |= format == Format::$name;
+            };
+        }
+        for_each_codec!(finer: finer);
         let encode = encode(format, &one, BLOCKS, Format::encode, one.encode);
         let precise = self::encode(
             format,
