@@ -1,4 +1,4 @@
-//! The one error there is.
+//! The errors there are: lengths that differ, and strides that do not fit.
 
 use core::fmt;
 
@@ -16,6 +16,10 @@ pub enum LengthMismatch {
     /// takes.
     #[allow(missing_docs)]
     Bytes { x: usize, y: usize, z: usize, bytes: usize, code_size: usize },
+    /// Array of structures and codes as bytes: the number of vectors, of bytes, and of bytes that one
+    /// code takes.
+    #[allow(missing_docs)]
+    AosBytes { vectors: usize, bytes: usize, code_size: usize },
     /// Transcoding: the number of codes to read, and to write.
     #[allow(missing_docs)]
     Transcode { src: usize, dst: usize },
@@ -71,6 +75,16 @@ impl LengthMismatch {
     ) -> Result<(), Self> {
         let fits = [y, z] == [x; 2] && x.checked_mul(code_size) == Some(bytes);
         Self::Bytes { x, y, z, bytes, code_size }.unless(fits)
+    }
+
+    #[inline]
+    pub(crate) fn check_aos_bytes(
+        vectors: usize,
+        bytes: usize,
+        code_size: usize,
+    ) -> Result<(), Self> {
+        let fits = vectors.checked_mul(code_size) == Some(bytes);
+        Self::AosBytes { vectors, bytes, code_size }.unless(fits)
     }
 
     #[inline]
@@ -142,6 +156,10 @@ impl fmt::Display for LengthMismatch {
                 f,
                 "lengths do not fit: x {x}, y {y}, z {z}, bytes {bytes} at {code_size} a code"
             ),
+            LengthMismatch::AosBytes { vectors, bytes, code_size } => write!(
+                f,
+                "lengths do not fit: vectors {vectors}, bytes {bytes} at {code_size} a code"
+            ),
             LengthMismatch::Transcode { src, dst } => {
                 write!(f, "lengths differ: source {src}, destination {dst}")
             }
@@ -186,3 +204,66 @@ impl fmt::Display for LengthMismatch {
 }
 
 impl core::error::Error for LengthMismatch {}
+
+/// Elements at a stride do not fit their bytes, or each other. Nothing was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StrideMismatch {
+    /// `len` elements of `size` bytes, of which the first begins at `offset` and the others `stride` bytes apart, end beyond
+    /// the `bytes` that there are.
+    #[allow(missing_docs)]
+    Bounds { offset: usize, stride: usize, len: usize, size: usize, bytes: usize },
+    /// The stride is less than the size of an element.
+    #[allow(missing_docs)]
+    Stride { stride: usize, size: usize },
+    /// The number of vectors, and of codes.
+    #[allow(missing_docs)]
+    Lengths { vectors: usize, codes: usize },
+    /// The number of normals, of tangents, and of codes.
+    #[allow(missing_docs)]
+    Frames { normals: usize, tangents: usize, codes: usize },
+    /// In place: from the first byte of vector and code to the last of them are `span` bytes, more than the stride, so that
+    /// an element's code would lie in another element.
+    #[allow(missing_docs)]
+    Span { stride: usize, span: usize },
+}
+
+impl StrideMismatch {
+    #[inline]
+    pub(crate) fn check_lengths(vectors: usize, codes: usize) -> Result<(), Self> {
+        if vectors == codes { Ok(()) } else { Err(Self::Lengths { vectors, codes }) }
+    }
+
+    #[inline]
+    pub(crate) fn check_frames(normals: usize, tangents: usize, codes: usize) -> Result<(), Self> {
+        let fits = [normals, tangents] == [codes; 2];
+        if fits { Ok(()) } else { Err(Self::Frames { normals, tangents, codes }) }
+    }
+}
+
+impl fmt::Display for StrideMismatch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            StrideMismatch::Bounds { offset, stride, len, size, bytes } => write!(
+                f,
+                "{len} elements of {size} bytes from byte {offset} on, {stride} bytes apart, do not \
+                 lie in {bytes} bytes"
+            ),
+            StrideMismatch::Stride { stride, size } => {
+                write!(f, "a stride of {stride} bytes is less than an element's {size}")
+            }
+            StrideMismatch::Lengths { vectors, codes } => {
+                write!(f, "lengths differ: vectors {vectors}, codes {codes}")
+            }
+            StrideMismatch::Frames { normals, tangents, codes } => {
+                write!(f, "lengths differ: normals {normals}, tangents {tangents}, codes {codes}")
+            }
+            StrideMismatch::Span { stride, span } => write!(
+                f,
+                "a vector and its code span {span} bytes, more than the stride of {stride}"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for StrideMismatch {}

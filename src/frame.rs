@@ -63,12 +63,12 @@
 //! Basis, Revisited", 2017; Kapoulkine, "Quantizing tangent frames", 2026; Frey and Herzeg, "Spherical
 //! Skinning with Dual-Quaternions and QTangents", 2011. The angle in place of a diamond is unitpack's.
 
-use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{from_native, to_native};
 use crate::codec::Format;
-use crate::error::LengthMismatch;
+use crate::error::{LengthMismatch, StrideMismatch};
 use crate::simd::{I32x1, Vec3};
-use crate::vector::{Soa, SoaMut};
+use crate::vector::{Soa, SoaMut, Strided, StridedMut};
 use formula::{FrameBytes, FrameFormula, Prepared, skew_degrees};
 use kernels::FrameKernels;
 use oct_angle::OctAngle;
@@ -304,6 +304,55 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         LengthMismatch::check_frame_aos(normals.len(), tangents.len(), codes.len())?;
         let frames = (VectorsMut::rows(normals), VectorsMut::rows(tangents));
         Self::decode_batch(Codes::native(codes), frames);
+        Ok(())
+    }
+
+    /// [`encode`](FrameCodec::encode) for normals of three native floats, tangents of four, x, y, z and handedness, and codes,
+    /// each at a stride. Gives the input's greatest skew. See [`Strided`].
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided(
+        normals: Strided<'_>,
+        tangents: Strided<'_>,
+        codes: StridedMut<'_>,
+    ) -> Result<Skew, StrideMismatch> {
+        StrideMismatch::check_frames(normals.len, tangents.len, codes.len)?;
+        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
+        Ok(Self::encode_batch((normals.vectors()?, tangents.vectors()?), codes))
+    }
+
+    /// [`encode_precise`](FrameCodec::encode_precise) for normals, tangents and codes at a stride, as
+    /// [`encode_strided`](FrameCodec::encode_strided) takes them. Gives the input's greatest skew.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided_precise(
+        normals: Strided<'_>,
+        tangents: Strided<'_>,
+        codes: StridedMut<'_>,
+    ) -> Result<Skew, StrideMismatch> {
+        StrideMismatch::check_frames(normals.len, tangents.len, codes.len)?;
+        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
+        Ok(Self::encode_batch_precise((normals.vectors()?, tangents.vectors()?), codes))
+    }
+
+    /// [`decode`](FrameCodec::decode) for codes, normals and tangents at a stride, as
+    /// [`encode_strided`](FrameCodec::encode_strided) takes them. What lies between stays as it is.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn decode_strided(
+        codes: Strided<'_>,
+        normals: StridedMut<'_>,
+        tangents: StridedMut<'_>,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_frames(normals.len, tangents.len, codes.len)?;
+        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
+        Self::decode_batch(codes, (normals.vectors()?, tangents.vectors()?));
         Ok(())
     }
 }

@@ -31,7 +31,7 @@ mod vector;
 
 pub use batch::code_int::CodeInt;
 pub use codec::*;
-pub use error::LengthMismatch;
+pub use error::{LengthMismatch, StrideMismatch};
 #[cfg(feature = "fibonacci")]
 pub use spherical_fibonacci::SphericalFibonacci;
-pub use vector::{Soa, SoaMut};
+pub use vector::{Soa, SoaMut, Strided, StridedMut};

@@ -46,10 +46,11 @@
 
 use bytemuck::Pod;
 
-use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{from_native, to_native};
-use crate::error::LengthMismatch;
+use crate::error::{LengthMismatch, StrideMismatch};
 use crate::formula::support::sanitize::sanitize4;
+use crate::vector::{Strided, StridedMut};
 use chart::{Bits10, Bits15, Bits20};
 use formula::{Rotation, RotationKernels};
 use smallest_three::SmallestThree;
@@ -222,6 +223,42 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     fn decode_aos(codes: &[Self::Code], q: &mut [[f32; 4]]) -> Result<(), LengthMismatch> {
         LengthMismatch::check_aos(q.len(), codes.len())?;
         Self::decode_batch(Codes::native(codes), VectorsMut::rows(q));
+        Ok(())
+    }
+
+    /// [`encode`](QuaternionCodec::encode) for quaternions of four native floats, x, y, z and w, and codes, both at a stride.
+    /// See [`Strided`].
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided(q: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(q.len, codes.len)?;
+        Self::encode_batch(q.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        Ok(())
+    }
+
+    /// [`encode_precise`](QuaternionCodec::encode_precise) for quaternions and codes at a stride, as
+    /// [`encode_strided`](QuaternionCodec::encode_strided) takes them.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided_precise(q: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(q.len, codes.len)?;
+        Self::encode_batch_precise(q.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        Ok(())
+    }
+
+    /// [`decode`](QuaternionCodec::decode) for codes and quaternions at a stride, as
+    /// [`encode_strided`](QuaternionCodec::encode_strided) takes them. What lies between the quaternions stays as it is.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn decode_strided(codes: Strided<'_>, q: StridedMut<'_>) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(q.len, codes.len)?;
+        Self::decode_batch(codes.codes(CodeLayout::native::<Self::Code>())?, q.vectors()?);
         Ok(())
     }
 }

@@ -1,5 +1,12 @@
 //! The public shapes of data.
 
+use core::ops::Range;
+
+use bytemuck::{AnyBitPattern, NoUninit};
+
+use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut, Within};
+use crate::error::StrideMismatch;
+
 /// Vectors to read, as a structure of arrays. All three slices have one element per vector.
 #[derive(Clone, Copy, Debug)]
 pub struct Soa<'a> {
@@ -20,4 +27,168 @@ pub struct SoaMut<'a> {
     pub y: &'a mut [f32],
     /// The z components.
     pub z: &'a mut [f32],
+}
+
+impl<'a> From<Soa<'a>> for Vectors<'a, 3> {
+    #[inline]
+    fn from(v: Soa<'a>) -> Self {
+        Vectors::Columns([v.x, v.y, v.z])
+    }
+}
+
+impl<'a> From<SoaMut<'a>> for VectorsMut<'a, 3> {
+    #[inline]
+    fn from(v: SoaMut<'a>) -> Self {
+        VectorsMut::Columns([v.x, v.y, v.z])
+    }
+}
+
+/// Elements to read at any alignment: element i begins at byte `offset + i * stride`. The last one may end before a whole
+/// stride.
+///
+/// ```
+/// use core::mem::offset_of;
+/// use unitpack::{Codec, Oct32, Strided, StridedMut};
+///
+/// #[repr(C)]
+/// #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+/// struct Vertex {
+///     position: [f32; 3],
+///     normal: [f32; 3],
+///     uv: [f32; 2],
+/// }
+/// #[repr(C)]
+/// #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+/// struct GpuVertex {
+///     position: [u16; 4],
+///     normal: u32,
+/// }
+/// let vertex = Vertex { position: [5.0; 3], normal: [0.0, 0.0, 1.0], uv: [0.5; 2] };
+/// let vertices = [vertex; 100];
+/// let mut packed = [GpuVertex { position: [0; 4], normal: 7 }; 100];
+/// Oct32::encode_strided(
+///     Strided::of(&vertices, offset_of!(Vertex, normal)),
+///     StridedMut::of(&mut packed, offset_of!(GpuVertex, normal)),
+/// )?;
+/// assert_eq!(Oct32::decode(packed[99].normal), [0.0, 0.0, 1.0]);
+/// # Ok::<(), unitpack::StrideMismatch>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Strided<'a> {
+    /// All bytes, those between the elements too.
+    pub bytes: &'a [u8],
+    /// Where the first element begins.
+    pub offset: usize,
+    /// Bytes from one element to the next, at least those of an element.
+    pub stride: usize,
+    /// Number of elements.
+    pub len: usize,
+}
+
+/// Elements to write at any alignment, as [`Strided`] has them. What lies between them stays as it is.
+#[derive(Debug)]
+pub struct StridedMut<'a> {
+    /// All bytes, those between the elements too.
+    pub bytes: &'a mut [u8],
+    /// Where the first element begins.
+    pub offset: usize,
+    /// Bytes from one element to the next, at least those of an element.
+    pub stride: usize,
+    /// Number of elements.
+    pub len: usize,
+}
+
+impl<'a> Strided<'a> {
+    /// A field of all structures: `offset` is what [`offset_of!`](core::mem::offset_of) gives.
+    #[inline]
+    pub fn of<T: NoUninit>(structures: &'a [T], offset: usize) -> Self {
+        let (stride, len) = (size_of::<T>(), structures.len());
+        Strided { bytes: bytemuck::cast_slice(structures), offset, stride, len }
+    }
+
+    /// The bytes from the first element to the last, which have `size` bytes each.
+    #[inline]
+    fn elements(self, size: usize) -> Result<&'a [u8], StrideMismatch> {
+        let Strided { bytes, offset, stride, len } = self;
+        let range = range(bytes.len(), [offset, stride, len, size])?;
+        Ok(bytes.get(range).unwrap_or_default())
+    }
+
+    /// Vectors of `K` native floats.
+    #[inline]
+    pub(crate) fn vectors<const K: usize>(self) -> Result<Vectors<'a, K>, StrideMismatch> {
+        Ok(Vectors::Rows { bytes: self.elements(4 * K)?, stride: self.stride })
+    }
+
+    #[inline]
+    pub(crate) fn codes(self, layout: CodeLayout) -> Result<Codes<'a>, StrideMismatch> {
+        Ok(Codes::strided(self.elements(layout.size)?, layout, self.stride))
+    }
+}
+
+impl<'a> StridedMut<'a> {
+    /// A field of all structures: `offset` is what [`offset_of!`](core::mem::offset_of) gives.
+    #[inline]
+    pub fn of<T: NoUninit + AnyBitPattern>(structures: &'a mut [T], offset: usize) -> Self {
+        let (stride, len) = (size_of::<T>(), structures.len());
+        StridedMut { bytes: bytemuck::cast_slice_mut(structures), offset, stride, len }
+    }
+
+    /// See [`Strided::elements`].
+    #[inline]
+    fn elements(self, size: usize) -> Result<&'a mut [u8], StrideMismatch> {
+        let StridedMut { bytes, offset, stride, len } = self;
+        let range = range(bytes.len(), [offset, stride, len, size])?;
+        Ok(bytes.get_mut(range).unwrap_or_default())
+    }
+
+    /// See [`Strided::vectors`].
+    #[inline]
+    pub(crate) fn vectors<const K: usize>(self) -> Result<VectorsMut<'a, K>, StrideMismatch> {
+        let stride = self.stride;
+        Ok(VectorsMut::Rows { bytes: self.elements(4 * K)?, stride })
+    }
+
+    #[inline]
+    pub(crate) fn codes(self, layout: CodeLayout) -> Result<CodesMut<'a>, StrideMismatch> {
+        let stride = self.stride;
+        Ok(CodesMut::strided(self.elements(layout.size)?, layout, stride))
+    }
+
+    /// Elements with a vector of `K` floats at `vector` and a code at `code`, wherever `offset` is.
+    #[inline]
+    pub(crate) fn within<const K: usize>(
+        self,
+        vector: usize,
+        code: usize,
+        layout: CodeLayout,
+    ) -> Result<Within<'a>, StrideMismatch> {
+        let StridedMut { bytes, stride, len, .. } = self;
+        let first = vector.min(code);
+        let end = vector.saturating_add(4 * K).max(code.saturating_add(layout.size));
+        let span = end - first;
+        if stride < span {
+            return Err(StrideMismatch::Span { stride, span });
+        }
+        let range = range(bytes.len(), [first, stride, len, span])?;
+        let bytes = bytes.get_mut(range).unwrap_or_default();
+        Ok(Within { bytes, stride, vector: vector - first, code: code - first, layout })
+    }
+}
+
+/// Where elements of `size` bytes lie in so many bytes.
+#[inline]
+fn range(
+    bytes: usize,
+    [offset, stride, len, size]: [usize; 4],
+) -> Result<Range<usize>, StrideMismatch> {
+    if stride < size {
+        return Err(StrideMismatch::Stride { stride, size });
+    }
+    let Some(last) = len.checked_sub(1) else { return Ok(0..0) };
+    let end = last.checked_mul(stride).and_then(|at| at.checked_add(offset)?.checked_add(size));
+    match end {
+        Some(end) if end <= bytes => Ok(offset..end),
+        _ => Err(StrideMismatch::Bounds { offset, stride, len, size, bytes }),
+    }
 }

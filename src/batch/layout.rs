@@ -1,14 +1,13 @@
 //! The one place where layouts meet: brings vectors and codes of any layout into the form that
 //! kernels take, a few at a time.
 
-use bytemuck::Pod;
-
+pub(crate) use super::codes::{CodeLayout, Codes, CodesMut};
+use super::codes::{Room, gather as gather_codes, scatter as scatter_codes};
 use super::columns::{Columns, Input, Output, QUAD, RowSlice, RowSliceMut, Rows, Strided, empty};
-use super::storage::{CodeSlice, CodeSliceMut, MAX_CODE, copy, swap_if_big_endian};
+use super::storage::{CodeSlice, CodeSliceMut, MAX_CODE};
 use super::{Kernel, map};
 use crate::simd::stream::{self, Fence};
 use crate::simd::{Simd, Use};
-use crate::vector::{Soa, SoaMut};
 
 /// Elements that are converted at a time: more where each part costs a check of the processor.
 pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { FEW };
@@ -34,21 +33,6 @@ pub enum VectorsMut<'a, const K: usize> {
     Rows { bytes: &'a mut [u8], stride: usize },
 }
 
-/// Codes to read, without gaps.
-#[derive(Clone, Copy)]
-pub struct Codes<'a> {
-    codes: CodeSlice<'a>,
-    /// Size of the native integers that a code consists of, or 1 if they are little-endian.
-    native: usize,
-}
-
-/// Codes to write, without gaps.
-pub struct CodesMut<'a> {
-    codes: CodeSliceMut<'a>,
-    /// See [`Codes`].
-    native: usize,
-}
-
 impl<'a, const K: usize> Vectors<'a, K> {
     /// Vectors of `N` floats, of which the first `K` count.
     #[inline]
@@ -71,117 +55,6 @@ impl<'a, const K: usize> VectorsMut<'a, K> {
             bytes: bytemuck::cast_slice_mut(vectors.as_flattened_mut()),
             stride: 4 * N,
         }
-    }
-}
-
-impl<'a> From<Soa<'a>> for Vectors<'a, 3> {
-    #[inline]
-    fn from(v: Soa<'a>) -> Self {
-        Vectors::Columns([v.x, v.y, v.z])
-    }
-}
-
-impl<'a> From<SoaMut<'a>> for VectorsMut<'a, 3> {
-    #[inline]
-    fn from(v: SoaMut<'a>) -> Self {
-        VectorsMut::Columns([v.x, v.y, v.z])
-    }
-}
-
-impl<'a> Codes<'a> {
-    #[inline]
-    pub(crate) fn native<C: Pod>(codes: &'a [C]) -> Self {
-        let bytes = bytemuck::cast_slice(codes);
-        Codes { codes: CodeSlice { bytes, size: size_of::<C>() }, native: align_of::<C>() }
-    }
-
-    #[inline]
-    pub(crate) fn little_endian(bytes: &'a [u8], size: usize) -> Self {
-        Codes { codes: CodeSlice { bytes, size }, native: 1 }
-    }
-
-    fn len(self) -> usize {
-        self.codes.len()
-    }
-
-    /// Size of a code in bytes.
-    pub(crate) fn size(self) -> usize {
-        self.codes.size
-    }
-
-    /// At most `len` codes at a time.
-    fn parts(self, len: usize) -> impl Iterator<Item = Self> {
-        let Codes { codes: CodeSlice { bytes, size }, native } = self;
-        bytes
-            .chunks((len * size).max(1))
-            .map(move |bytes| Codes { codes: CodeSlice { bytes, size }, native })
-    }
-
-    /// The codes, if their bytes are little-endian.
-    #[inline]
-    fn direct(self) -> Option<CodeSlice<'a>> {
-        (cfg!(target_endian = "little") || self.native == 1).then_some(self.codes)
-    }
-
-    /// Calls a kernel with codes, at most [`MANY`] of them.
-    fn read(self, kernel: impl FnOnce(CodeSlice<'_>)) {
-        if let Some(codes) = self.direct() {
-            return kernel(codes);
-        }
-        let CodeSlice { bytes, size } = self.codes;
-        let mut buffer = [0; MAX_CODE * MANY];
-        if let Some(swapped) = buffer.get_mut(..bytes.len()) {
-            copy(bytes, swapped);
-            swap_if_big_endian(swapped, self.native);
-            kernel(CodeSlice { bytes: swapped, size });
-        }
-    }
-}
-
-impl<'a> From<CodeSlice<'a>> for Codes<'a> {
-    #[inline]
-    fn from(codes: CodeSlice<'a>) -> Self {
-        Codes { codes, native: 1 }
-    }
-}
-
-impl<'a> From<CodeSliceMut<'a>> for CodesMut<'a> {
-    #[inline]
-    fn from(codes: CodeSliceMut<'a>) -> Self {
-        CodesMut { codes, native: 1 }
-    }
-}
-
-impl<'a> CodesMut<'a> {
-    #[inline]
-    pub(crate) fn native<C: Pod>(codes: &'a mut [C]) -> Self {
-        let bytes = bytemuck::cast_slice_mut(codes);
-        CodesMut { codes: CodeSliceMut { bytes, size: size_of::<C>() }, native: align_of::<C>() }
-    }
-
-    #[inline]
-    pub(crate) fn little_endian(bytes: &'a mut [u8], size: usize) -> Self {
-        CodesMut { codes: CodeSliceMut { bytes, size }, native: 1 }
-    }
-
-    fn len(&self) -> usize {
-        self.codes.bytes.len().checked_div(self.codes.size).unwrap_or(0)
-    }
-
-    /// At most `len` codes at a time.
-    fn parts(self, len: usize) -> impl Iterator<Item = Self> {
-        let CodesMut { codes: CodeSliceMut { bytes, size }, native } = self;
-        bytes
-            .chunks_mut((len * size).max(1))
-            .map(move |bytes| CodesMut { codes: CodeSliceMut { bytes, size }, native })
-    }
-
-    /// Lets a kernel write codes.
-    #[inline]
-    fn write(self, kernel: impl FnOnce(CodeSliceMut<'_>)) {
-        let CodeSliceMut { bytes, size } = self.codes;
-        kernel(CodeSliceMut { bytes: &mut *bytes, size });
-        swap_if_big_endian(bytes, self.native);
     }
 }
 
@@ -251,8 +124,8 @@ pub(crate) fn encode<'a, R: Read<'a>>(
     kernel: EncodeKernel<'_, 'a, R>,
 ) {
     match input.direct() {
-        Some(slices) => codes.write(|codes| kernel(slices, codes)),
-        None => encode_in_parts(input, codes, &mut |slices, codes, []| kernel(slices, codes)),
+        Some(slices) if codes.is_dense() => codes.write_dense(|codes| kernel(slices, codes)),
+        _ => encode_in_parts(input, codes, &mut |slices, codes, []| kernel(slices, codes)),
     }
 }
 
@@ -279,11 +152,12 @@ fn encode_parts<'a, R: Read<'a>, const S: usize, const LEN: usize>(
     kernel: EncodePart<'_, 'a, R, S>,
 ) {
     let (mut buffer, mut room) = (R::Buffer::<LEN>::default(), [[0.0; LEN]; S]);
+    let mut code_room = Room::<LEN>::None;
     for (part, codes) in codes.parts(LEN).enumerate() {
         let len = codes.len();
         let slices = input.part(part * LEN, len, &mut buffer);
         if let Some(room) = columns_mut(&mut room, len) {
-            codes.write(|codes| kernel(slices, codes, room));
+            codes.write(&mut code_room, |codes| kernel(slices, codes, room));
         }
     }
 }
@@ -357,6 +231,7 @@ fn decode_parts<'a, W: Write<'a>, const S: usize, const LEN: usize>(
     kernel: DecodePart<'_, 'a, W, S>,
 ) {
     let (mut buffer, mut room) = (W::Buffer::<LEN>::default(), [[0.0; LEN]; S]);
+    let mut code_room = Room::<LEN>::None;
     for codes in codes.parts(LEN) {
         let len = codes.len();
         let (mut part, others) = output.split_at(len);
@@ -364,7 +239,7 @@ fn decode_parts<'a, W: Write<'a>, const S: usize, const LEN: usize>(
         if let Some(slices) = part.slices(len, &mut buffer)
             && let Some(room) = columns_mut(&mut room, len)
         {
-            codes.read(|codes| kernel(codes, slices, room));
+            codes.read(&mut code_room, |codes| kernel(codes, slices, room));
         }
         part.take(&buffer);
     }
@@ -378,40 +253,95 @@ pub(crate) fn decode_each<const SIZE: usize>(
     vectors: VectorsMut<'_, 3>,
     decode: impl Fn([u8; SIZE]) -> [f32; 3],
 ) {
-    let decode = |mut code: [u8; SIZE]| {
-        swap_if_big_endian(&mut code, codes.native);
-        decode(code)
-    };
-    let (codes, _) = codes.codes.bytes.as_chunks();
     match vectors {
         VectorsMut::Columns([x, y, z]) => {
-            for (((code, x), y), z) in codes.iter().zip(x).zip(y).zip(z) {
-                [*x, *y, *z] = decode(*code);
+            for (((code, x), y), z) in codes.each().zip(x).zip(y).zip(z) {
+                [*x, *y, *z] = decode(code);
             }
         }
         VectorsMut::Rows { bytes, stride } => match stride {
-            12 => decode_rows(codes, bytes.as_chunks_mut::<12>().0, decode),
+            12 => decode_rows(codes.each(), bytes.as_chunks_mut::<12>().0, decode),
             QUAD => {
                 let (rows, rest) = bytes.as_chunks_mut::<QUAD>();
-                let (whole, last) = codes.split_at(codes.len().min(rows.len()));
-                decode_rows(whole, rows, decode);
-                decode_rows(last, [rest], decode);
+                let last = codes.each().skip(rows.len());
+                decode_rows(codes.each(), rows, &decode);
+                decode_rows(last, [rest], &decode);
             }
-            _ => decode_rows(codes, bytes.chunks_mut(stride.max(1)), decode),
+            _ => decode_rows(codes.each(), bytes.chunks_mut(stride.max(1)), decode),
         },
     }
 }
 
 /// Decodes to the first bytes of rows.
 #[inline(always)]
-fn decode_rows<const SIZE: usize, R: AsMut<[u8]>>(
-    codes: &[[u8; SIZE]],
+fn decode_rows<C, R: AsMut<[u8]>>(
+    codes: impl Iterator<Item = C>,
     rows: impl IntoIterator<Item = R>,
-    decode: impl Fn([u8; SIZE]) -> [f32; 3],
+    decode: impl Fn(C) -> [f32; 3],
 ) {
-    for (code, mut row) in codes.iter().zip(rows) {
+    // Rows first: a code too many is not taken.
+    for (mut row, code) in rows.into_iter().zip(codes) {
         if let Some(to) = row.as_mut().first_chunk_mut() {
-            *to = bytemuck::cast::<[f32; 3], [u8; 12]>(decode(*code));
+            *to = bytemuck::cast::<[f32; 3], [u8; 12]>(decode(code));
+        }
+    }
+}
+
+/// Elements that hold a vector and its code, which may overlap. Both lie within `stride` bytes, so that no element reaches
+/// into another.
+pub(crate) struct Within<'a> {
+    /// From the first byte of the first element to the last byte of the last.
+    pub(crate) bytes: &'a mut [u8],
+    pub(crate) stride: usize,
+    /// Where in an element the vector begins.
+    pub(crate) vector: usize,
+    /// Where in an element the code begins.
+    pub(crate) code: usize,
+    pub(crate) layout: CodeLayout,
+}
+
+/// Encodes vectors to where they lie. All of a part are read before any is written.
+#[inline(never)]
+pub(crate) fn encode_within<const K: usize>(
+    within: Within<'_>,
+    encode: &dyn Fn(Vectors<'_, K>, CodesMut<'_>),
+) {
+    let Within { bytes, stride, vector, code, layout } = within;
+    let size = layout.size;
+    let mut room = [[0; MAX_CODE]; PART];
+    for part in bytes.chunks_mut(PART.saturating_mul(stride).max(1)) {
+        let len = part.len().div_ceil(stride.max(1));
+        if let Some(codes) = room.as_flattened_mut().get_mut(..len * size)
+            && let Some(vectors) = part.get(vector..)
+        {
+            let to = CodesMut::strided(codes, layout, size);
+            encode(Vectors::Rows { bytes: vectors, stride }, to);
+            if let Some(to) = part.get_mut(code..) {
+                scatter_codes(codes, to, size, stride);
+            }
+        }
+    }
+}
+
+/// Decodes codes to where they lie. All of a part are read before any is written.
+#[inline(never)]
+pub(crate) fn decode_within<const K: usize>(
+    within: Within<'_>,
+    decode: &dyn Fn(Codes<'_>, VectorsMut<'_, K>),
+) {
+    let Within { bytes, stride, vector, code, layout } = within;
+    let size = layout.size;
+    let mut room = [[0; MAX_CODE]; PART];
+    for part in bytes.chunks_mut(PART.saturating_mul(stride).max(1)) {
+        let len = part.len().div_ceil(stride.max(1));
+        if let Some(codes) = room.as_flattened_mut().get_mut(..len * size)
+            && let Some(from) = part.get(code..)
+        {
+            gather_codes(from, size, stride, codes);
+            if let Some(to) = part.get_mut(vector..) {
+                let codes = Codes::strided(codes, layout, size);
+                decode(codes, VectorsMut::Rows { bytes: to, stride });
+            }
         }
     }
 }
@@ -452,16 +382,9 @@ pub(crate) fn transcode(
 /// Changes codes in place.
 #[inline(never)]
 pub(crate) fn map_codes(codes: CodesMut<'_>, kernel: &dyn Fn(CodeSlice<'_>, CodeSliceMut<'_>)) {
-    let mut buffer = [0; MAX_CODE * PART];
-    for part in codes.parts(PART) {
-        let native = part.native;
-        let CodeSliceMut { bytes, size } = part.codes;
-        if let Some(before) = buffer.get_mut(..bytes.len()) {
-            copy(bytes, before);
-            swap_if_big_endian(before, native);
-            kernel(CodeSlice { bytes: before, size }, CodeSliceMut { bytes: &mut *bytes, size });
-            swap_if_big_endian(bytes, native);
-        }
+    let mut room = Room::<PART>::None;
+    for codes in codes.parts(PART) {
+        codes.update(&mut room, kernel);
     }
 }
 
@@ -926,16 +849,6 @@ mod tests {
             );
             assert_eq!(from, to);
         }
-    }
-
-    #[test]
-    fn codes_are_counted_by_their_size() {
-        assert_eq!(Codes::native(&[[0u16; 3]; 5]).len(), 5);
-        assert_eq!(Codes::little_endian(&[0; 10], 3).len(), 3);
-        assert_eq!(Codes::little_endian(&[], 3).parts(2).count(), 0);
-        let sizes: Vec<usize> =
-            Codes::little_endian(&[0; 15], 3).parts(2).map(Codes::len).collect();
-        assert_eq!(sizes, [2, 2, 1]);
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! little-endian bytes. [`layout`] brings everything else into that form.
 
 pub(crate) mod code_int;
+mod codes;
 pub(crate) mod columns;
 pub(crate) mod layout;
 pub(crate) mod storage;

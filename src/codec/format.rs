@@ -4,9 +4,9 @@ use core::fmt;
 use core::str::FromStr;
 
 use super::{Codec, Format};
-use crate::batch::layout::{self, Codes, CodesMut};
-use crate::error::LengthMismatch;
-use crate::vector::{Soa, SoaMut};
+use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
+use crate::error::{LengthMismatch, StrideMismatch};
+use crate::vector::{Soa, SoaMut, Strided, StridedMut};
 
 /// Something to do with a codec whose type is known only at run time: see [`Format::visit`].
 pub trait Visitor {
@@ -55,6 +55,151 @@ impl Format {
         LengthMismatch::check_bytes([v.x.len(), v.y.len(), v.z.len()], bytes.len(), size)?;
         self.decode_batch(Codes::little_endian(bytes, size), v.into());
         Ok(())
+    }
+
+    /// Encodes as [`Codec::encode_aos`] does, to tightly packed little-endian codes at any alignment.
+    ///
+    /// `bytes.len()` must be [`code_size`](Format::code_size) times `v.len()`. `N < 3` does not compile.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
+    #[inline]
+    pub fn encode_aos<const N: usize>(
+        self,
+        v: &[[f32; N]],
+        bytes: &mut [u8],
+    ) -> Result<(), LengthMismatch> {
+        let size = self.code_size();
+        LengthMismatch::check_aos_bytes(v.len(), bytes.len(), size)?;
+        self.encode_batch(Vectors::rows(v), CodesMut::little_endian(bytes, size));
+        Ok(())
+    }
+
+    /// Encodes as [`Codec::encode_aos_precise`] does, as [`encode_aos`](Format::encode_aos) takes vectors and codes.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
+    #[inline]
+    pub fn encode_aos_precise<const N: usize>(
+        self,
+        v: &[[f32; N]],
+        bytes: &mut [u8],
+    ) -> Result<(), LengthMismatch> {
+        let size = self.code_size();
+        LengthMismatch::check_aos_bytes(v.len(), bytes.len(), size)?;
+        self.encode_batch_precise(Vectors::rows(v), CodesMut::little_endian(bytes, size));
+        Ok(())
+    }
+
+    /// Decodes as [`Codec::decode_aos`] does, as [`encode_aos`](Format::encode_aos) takes vectors and codes.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
+    #[inline]
+    pub fn decode_aos<const N: usize>(
+        self,
+        bytes: &[u8],
+        v: &mut [[f32; N]],
+    ) -> Result<(), LengthMismatch> {
+        let size = self.code_size();
+        LengthMismatch::check_aos_bytes(v.len(), bytes.len(), size)?;
+        self.decode_batch(Codes::little_endian(bytes, size), VectorsMut::rows(v));
+        Ok(())
+    }
+
+    /// Encodes as [`Codec::encode_strided`] does, to little-endian codes.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    pub fn encode_strided(
+        self,
+        v: Strided<'_>,
+        codes: StridedMut<'_>,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        self.encode_batch(v.vectors()?, codes.codes(self.layout())?);
+        Ok(())
+    }
+
+    /// Encodes as [`Codec::encode_strided_precise`] does, to little-endian codes.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    pub fn encode_strided_precise(
+        self,
+        v: Strided<'_>,
+        codes: StridedMut<'_>,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        self.encode_batch_precise(v.vectors()?, codes.codes(self.layout())?);
+        Ok(())
+    }
+
+    /// Decodes little-endian codes, as [`Codec::decode_strided`] does.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    pub fn decode_strided(
+        self,
+        codes: Strided<'_>,
+        v: StridedMut<'_>,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        self.decode_batch(codes.codes(self.layout())?, v.vectors()?);
+        Ok(())
+    }
+
+    /// Encodes in place as [`Codec::encode_within`] does, to little-endian codes.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or vector and code together are longer than the stride;
+    /// nothing is written then.
+    pub fn encode_within(
+        self,
+        v: StridedMut<'_>,
+        code_offset: usize,
+    ) -> Result<(), StrideMismatch> {
+        let vector_offset = v.offset;
+        let within = v.within::<3>(vector_offset, code_offset, self.layout())?;
+        layout::encode_within(within, &|v, codes| self.encode_batch(v, codes));
+        Ok(())
+    }
+
+    /// Encodes in place as [`Codec::encode_within_precise`] does, to little-endian codes.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or vector and code together are longer than the stride;
+    /// nothing is written then.
+    pub fn encode_within_precise(
+        self,
+        v: StridedMut<'_>,
+        code_offset: usize,
+    ) -> Result<(), StrideMismatch> {
+        let vector_offset = v.offset;
+        let within = v.within::<3>(vector_offset, code_offset, self.layout())?;
+        layout::encode_within(within, &|v, codes| self.encode_batch_precise(v, codes));
+        Ok(())
+    }
+
+    /// Decodes little-endian codes in place, as [`Codec::decode_within`] does.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or vector and code together are longer than the stride;
+    /// nothing is written then.
+    pub fn decode_within(
+        self,
+        codes: StridedMut<'_>,
+        vector_offset: usize,
+    ) -> Result<(), StrideMismatch> {
+        let code_offset = codes.offset;
+        let within = codes.within::<3>(vector_offset, code_offset, self.layout())?;
+        layout::decode_within(within, &|codes, v| self.decode_batch(codes, v));
+        Ok(())
+    }
+
+    #[inline]
+    fn layout(self) -> CodeLayout {
+        CodeLayout::little_endian(self.code_size())
     }
 
     /// The format whose name, as [`name`](Format::name) gives it, this is. ASCII case does not matter.

@@ -2,15 +2,17 @@
 
 mod define;
 mod format;
+mod iter;
 mod report;
 mod table;
 
-use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
-use crate::error::LengthMismatch;
-use crate::vector::{Soa, SoaMut};
+use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
+use crate::error::{LengthMismatch, StrideMismatch};
+use crate::vector::{Soa, SoaMut, Strided, StridedMut};
 
 pub use define::*;
 pub use format::{UnknownFormat, Visitor, transcode};
+pub use iter::{DecodeIter, EncodeIter};
 pub use report::ErrorReport;
 pub(crate) use table::{codec_table, for_each_codec};
 
@@ -160,7 +162,8 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     }
 
     /// [`encode`](Codec::encode) for arrays of structures of `N` floats, of which the first three are
-    /// x, y and z. `N < 3` does not compile:
+    /// x, y and z: of vertices whose *first* field is the vector. Where the position is, take
+    /// [`encode_strided`](Codec::encode_strided), or what is packed is the position. `N < 3` does not compile:
     ///
     /// ```compile_fail
     /// use unitpack::{Codec, Oct16};
@@ -207,6 +210,124 @@ pub trait Codec: Copy + 'static + sealed::Batch {
         LengthMismatch::check_aos(v.len(), codes.len())?;
         Self::decode_batch(Codes::native(codes), VectorsMut::rows(v));
         Ok(())
+    }
+
+    /// [`encode`](Codec::encode) for vectors of three native floats and codes, both at a stride: a field of a vertex into a
+    /// field of another, without a copy between. Codes are as `Code` lies in memory. See [`Strided`].
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided(v: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        Self::encode_batch(v.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        Ok(())
+    }
+
+    /// [`encode_precise`](Codec::encode_precise) for vectors and codes at a stride, as
+    /// [`encode_strided`](Codec::encode_strided) takes them.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided_precise(v: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        Self::encode_batch_precise(v.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        Ok(())
+    }
+
+    /// [`decode`](Codec::decode) for codes and vectors at a stride, as [`encode_strided`](Codec::encode_strided) takes
+    /// them. What lies between the vectors stays as it is.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn decode_strided(codes: Strided<'_>, v: StridedMut<'_>) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        Self::decode_batch(codes.codes(CodeLayout::native::<Self::Code>())?, v.vectors()?);
+        Ok(())
+    }
+
+    /// [`encode_strided`](Codec::encode_strided) in place: the code of the vector at `v.offset` goes to `code_offset` in the
+    /// same bytes, the others each a stride further on. Vector and code may overlap: an element is read before it is written.
+    ///
+    /// ```
+    /// use core::mem::offset_of;
+    /// use unitpack::{Codec, Oct32, StridedMut};
+    /// // Eight floats: position, normal, uv. The code takes the place of the normal's x.
+    /// let mut vertices = [[5.0f32, 5.0, 5.0, 0.0, 0.0, 1.0, 0.5, 0.5]; 10];
+    /// Oct32::encode_within(StridedMut::of(&mut vertices, 12), 12)?;
+    /// assert_eq!(Oct32::decode(vertices[9][3].to_bits()), [0.0, 0.0, 1.0]);
+    /// # Ok::<(), unitpack::StrideMismatch>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or vector and code together are longer than the stride;
+    /// nothing is written then.
+    #[inline]
+    fn encode_within(v: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
+        let vector_offset = v.offset;
+        let layout = CodeLayout::native::<Self::Code>();
+        let within = v.within::<3>(vector_offset, code_offset, layout)?;
+        layout::encode_within(within, &Self::encode_batch);
+        Ok(())
+    }
+
+    /// [`encode_precise`](Codec::encode_precise) in place, as [`encode_within`](Codec::encode_within) has it.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or vector and code together are longer than the stride;
+    /// nothing is written then.
+    #[inline]
+    fn encode_within_precise(v: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
+        let vector_offset = v.offset;
+        let layout = CodeLayout::native::<Self::Code>();
+        let within = v.within::<3>(vector_offset, code_offset, layout)?;
+        layout::encode_within(within, &Self::encode_batch_precise);
+        Ok(())
+    }
+
+    /// [`decode_strided`](Codec::decode_strided) in place: the vector of the code at `codes.offset` goes to `vector_offset`
+    /// in the same bytes. Both may overlap, as in [`encode_within`](Codec::encode_within).
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or vector and code together are longer than the stride;
+    /// nothing is written then.
+    #[inline]
+    fn decode_within(codes: StridedMut<'_>, vector_offset: usize) -> Result<(), StrideMismatch> {
+        let code_offset = codes.offset;
+        let layout = CodeLayout::native::<Self::Code>();
+        let within = codes.within::<3>(vector_offset, code_offset, layout)?;
+        layout::decode_within(within, &Self::decode_batch);
+        Ok(())
+    }
+
+    /// [`encode`](Codec::encode) for what an iterator gives, as anything that becomes `[f32; 3]`: the vectors of `glam`,
+    /// `nalgebra` and `mint` do. It takes 64 at a time from the iterator, so that lanes are used.
+    ///
+    /// ```
+    /// use unitpack::{Codec, Oct16};
+    /// let normals = [[0.0, 0.6, 0.8]; 100];
+    /// let codes: Vec<u16> = Oct16::encode_iter(normals).collect();
+    /// assert_eq!(codes, [Oct16::encode(normals[0]); 100]);
+    /// ```
+    #[inline]
+    fn encode_iter<I: IntoIterator<Item: Into<[f32; 3]>>>(v: I) -> EncodeIter<Self, I::IntoIter> {
+        EncodeIter::new(v.into_iter(), Self::encode_batch)
+    }
+
+    /// [`encode_precise`](Codec::encode_precise) for what an iterator gives, as [`encode_iter`](Codec::encode_iter) takes it.
+    #[inline]
+    fn encode_iter_precise<I: IntoIterator<Item: Into<[f32; 3]>>>(
+        v: I,
+    ) -> EncodeIter<Self, I::IntoIter> {
+        EncodeIter::new(v.into_iter(), Self::encode_batch_precise)
+    }
+
+    /// [`decode`](Codec::decode) for codes that an iterator gives. It takes 64 at a time from it.
+    #[inline]
+    fn decode_iter<I: IntoIterator<Item = Self::Code>>(codes: I) -> DecodeIter<Self, I::IntoIter> {
+        DecodeIter::new(codes.into_iter(), Self::decode_batch)
     }
 }
 

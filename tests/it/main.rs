@@ -27,3 +27,4 @@ mod readme;
 mod scalar;
 mod schinko;
 mod streaming_stores;
+mod strided;

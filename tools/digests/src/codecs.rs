@@ -3,7 +3,9 @@
 use core::array;
 
 use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
-use unitpack::{Axis, Codec, Format, LengthMismatch, Soa, SoaMut, Visitor, for_each_codec};
+use unitpack::{
+    Axis, Codec, Format, LengthMismatch, Soa, SoaMut, Strided, StridedMut, Visitor, for_each_codec,
+};
 
 use crate::LEN;
 use crate::digest::Digest;
@@ -42,6 +44,40 @@ pub fn report() {
             format.name(),
         ));
     }
+    strides();
+}
+
+/// One line for all formats: vectors and codes at strides, of which none is aligned, and back in place.
+fn strides() {
+    let (mut encode, mut decode) = (Digest::new(), Digest::new());
+    for &format in Format::ALL {
+        let size = format.code_size();
+        let single = format.visit(One).decode;
+        let mut random = Random::new();
+        let mut vectors = [0; 1 + 21 * LEN];
+        for row in vectors[1..].chunks_exact_mut(21) {
+            let v = random.vector(size, format.bits(), single);
+            row[..12].copy_from_slice(v.map(f32::to_ne_bytes).as_flattened());
+        }
+        let mut codes = [0; 3 + (CODE + 1) * LEN];
+        let (v, stride) = (Strided { bytes: &vectors, offset: 1, stride: 21, len: LEN }, size + 1);
+        let to = StridedMut { bytes: &mut codes, offset: 3, stride, len: LEN };
+        format.encode_strided(v, to).expect("elements that fit");
+        let codes = &mut codes[..3 + stride * LEN];
+        for code in codes[3..].chunks_exact_mut(stride) {
+            digest_codes(format, &mut code[..size], &mut encode);
+        }
+        let v = StridedMut { bytes: &mut vectors, offset: 1, stride: 21, len: LEN };
+        format.encode_within(v, 3).expect("elements that fit");
+        let v = StridedMut { bytes: &mut vectors, offset: 3, stride: 21, len: LEN };
+        format.decode_within(v, 1).expect("elements that fit");
+        for row in vectors[1..].chunks_exact(21) {
+            for float in row[..12].as_chunks().0 {
+                decode.floats(&[f32::from_ne_bytes(*float)]);
+            }
+        }
+    }
+    line(format_args!("{:20} {:016x} {:016x}", "strides", encode.finish(), decode.finish()));
 }
 
 /// A codec's functions of one vector, over the little-endian bytes of a code.

@@ -72,11 +72,51 @@ impl Visitor for Everything {
         black_box(Format::encode_precise(C::FORMAT, buffers.read(), opaque(bytes)).is_ok());
         black_box(Format::decode(C::FORMAT, opaque(bytes), buffers.write()).is_ok());
 
+        let vectors = &mut [[0.5; 3]; LEN];
+        let vectors = opaque(vectors);
+        black_box(Format::encode_aos(C::FORMAT, vectors, bytes).is_ok());
+        black_box(Format::encode_aos_precise(C::FORMAT, vectors, bytes).is_ok());
+        black_box(Format::decode_aos(C::FORMAT, bytes, vectors).is_ok());
+        let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+        black_box(<C as Codec>::encode_strided(strided(a), strided_mut(b)).is_ok());
+        black_box(<C as Codec>::encode_strided_precise(strided(a), strided_mut(b)).is_ok());
+        black_box(<C as Codec>::decode_strided(strided(a), strided_mut(b)).is_ok());
+        black_box(<C as Codec>::encode_within(strided_mut(a), black_box(3)).is_ok());
+        black_box(<C as Codec>::encode_within_precise(strided_mut(a), black_box(3)).is_ok());
+        black_box(<C as Codec>::decode_within(strided_mut(a), black_box(3)).is_ok());
+        black_box(Format::encode_strided(C::FORMAT, strided(a), strided_mut(b)).is_ok());
+        black_box(Format::encode_strided_precise(C::FORMAT, strided(a), strided_mut(b)).is_ok());
+        black_box(Format::decode_strided(C::FORMAT, strided(a), strided_mut(b)).is_ok());
+        black_box(Format::encode_within(C::FORMAT, strided_mut(a), black_box(3)).is_ok());
+        black_box(Format::encode_within_precise(C::FORMAT, strided_mut(a), black_box(3)).is_ok());
+        black_box(Format::decode_within(C::FORMAT, strided_mut(a), black_box(3)).is_ok());
+        all_of(<C as Codec>::encode_iter(opaque(&mut [[0.5; 3]; LEN]).iter().copied()));
+        all_of(<C as Codec>::encode_iter_precise(opaque(&mut [[0.5; 3]; LEN]).iter().copied()));
+        all_of(<C as Codec>::decode_iter(black_box(&*codes).iter().copied()));
+
         black_box(
             transcode::<C, C>(black_box(codes), opaque(&mut [C::Code::zeroed(); LEN])).is_ok(),
         );
         black_box(transcode::<C, Oct16>(black_box(codes), opaque(&mut [0; LEN])).is_ok());
         black_box(transcode::<Float32x3, C>(opaque(&mut [[0; 3]; LEN]), black_box(codes)).is_ok());
+    }
+}
+
+/// Elements anywhere, or nowhere.
+fn strided<const N: usize>(bytes: &mut [u8; N]) -> Strided<'_> {
+    let [offset, stride, len] = black_box([1, 20, LEN]);
+    Strided { bytes: opaque(bytes), offset, stride, len }
+}
+
+fn strided_mut<const N: usize>(bytes: &mut [u8; N]) -> StridedMut<'_> {
+    let [offset, stride, len] = black_box([1, 20, LEN]);
+    StridedMut { bytes: opaque(bytes), offset, stride, len }
+}
+
+fn all_of<T>(elements: impl ExactSizeIterator<Item = T>) {
+    black_box(elements.len());
+    for element in elements {
+        black_box(element);
     }
 }
 
@@ -116,6 +156,7 @@ fn errors() {
         LengthMismatch::Soa { x: a, y: b, z: c, codes: d },
         LengthMismatch::Aos { vectors: a, codes: b },
         LengthMismatch::Bytes { x: a, y: b, z: c, bytes: d, code_size: a },
+        LengthMismatch::AosBytes { vectors: a, bytes: b, code_size: c },
         LengthMismatch::Transcode { src: a, dst: b },
         LengthMismatch::Values { values: a, codes: b },
         LengthMismatch::Tagged { codes: a, tags: b, words: c },
@@ -130,6 +171,19 @@ fn errors() {
         display::<LengthMismatch>(error);
         derived::<LengthMismatch>(error);
     }
+    for error in black_box([
+        StrideMismatch::Bounds { offset: a, stride: b, len: c, size: d, bytes: a },
+        StrideMismatch::Stride { stride: a, size: b },
+        StrideMismatch::Lengths { vectors: a, codes: b },
+        StrideMismatch::Frames { normals: a, tangents: b, codes: c },
+        StrideMismatch::Span { stride: a, span: b },
+    ]) {
+        display::<StrideMismatch>(error);
+        derived::<StrideMismatch>(error);
+    }
+    let structures = opaque(&mut [[1u32; 3]; LEN]);
+    black_box(Strided::of::<[u32; 3]>(structures, black_box(4)));
+    black_box(StridedMut::of::<[u32; 3]>(structures, black_box(4)));
 }
 
 fn display<T: Display>(value: T) {
@@ -394,6 +448,10 @@ fn quaternions<C: QuaternionCodec>() {
     black_box(<C as QuaternionCodec>::encode_aos(aos, codes).is_ok());
     black_box(<C as QuaternionCodec>::encode_aos_precise(aos, codes).is_ok());
     black_box(<C as QuaternionCodec>::decode_aos(codes, aos).is_ok());
+    let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+    black_box(<C as QuaternionCodec>::encode_strided(strided(a), strided_mut(b)).is_ok());
+    black_box(<C as QuaternionCodec>::encode_strided_precise(strided(a), strided_mut(b)).is_ok());
+    black_box(<C as QuaternionCodec>::decode_strided(strided(a), strided_mut(b)).is_ok());
 }
 
 fn all_quaternions() {
@@ -432,6 +490,14 @@ fn frames<C: FrameCodec>() {
     black_box(<C as FrameCodec>::decode_soa(black_box(codes), frames).is_ok());
     frame_structures::<C, 3>(codes);
     frame_structures::<C, 4>(codes);
+    let (a, b, c) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+    let skew = <C as FrameCodec>::encode_strided(strided(a), strided(b), strided_mut(c));
+    black_box(skew.is_ok());
+    let skew = <C as FrameCodec>::encode_strided_precise(strided(a), strided(b), strided_mut(c));
+    black_box(skew.is_ok());
+    black_box(
+        <C as FrameCodec>::decode_strided(strided(a), strided_mut(b), strided_mut(c)).is_ok(),
+    );
 }
 
 fn frame_structures<C: FrameCodec, const N: usize>(codes: &mut [C::Code]) {

@@ -1,0 +1,472 @@
+//! Vectors and codes where they lie: at strides, in place, and from iterators, against the functions of one vector.
+
+use bytemuck::{Pod, Zeroable};
+use unitpack::frame::{Frame, FrameCodec, OctAngle32, OctAngle64, QTangent64};
+use unitpack::quaternion::{
+    QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, TanThree32,
+};
+use unitpack::{
+    Codec, Format, LengthMismatch, Oct8, Oct16, Oct24, Oct32, Snorm8x3, Snorm16x3, StrideMismatch,
+    Strided, StridedMut, Visitor,
+};
+use unitpack_test::codes::random_codes;
+use unitpack_test::random::{Rng, mixed_vectors};
+use unitpack_test::tasks::check_all;
+use unitpack_test::{AnyCodec, Effort, Vector, representatives};
+
+/// Around the sizes of blocks and parts.
+const LENGTHS: [usize; 12] = [0, 1, 2, 7, 8, 16, 17, 63, 65, 257, 1025, 2100];
+
+/// Bytes around elements.
+const FILL: u8 = 0xEE;
+
+/// Where elements of some size lie in bytes: an offset, a stride, and how many.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    offset: usize,
+    stride: usize,
+    len: usize,
+}
+
+impl Place {
+    /// Any place: tight or not, at any alignment.
+    fn random(rng: &mut Rng, size: usize, len: usize) -> Self {
+        let gap = [0, 1, 3, 4, 20][rng.below(5) as usize];
+        Place { offset: rng.below(20) as usize, stride: size + gap, len }
+    }
+
+    /// Bytes that end with the last element.
+    fn bytes(self, size: usize) -> Vec<u8> {
+        let end = self.len.checked_sub(1).map_or(0, |last| self.offset + last * self.stride + size);
+        vec![FILL; end]
+    }
+
+    fn element(self, i: usize, size: usize) -> core::ops::Range<usize> {
+        let at = self.offset + i * self.stride;
+        at..at + size
+    }
+
+    fn read(self, bytes: &[u8]) -> Strided<'_> {
+        let Place { offset, stride, len } = self;
+        Strided { bytes, offset, stride, len }
+    }
+
+    fn write(self, bytes: &mut [u8]) -> StridedMut<'_> {
+        let Place { offset, stride, len } = self;
+        StridedMut { bytes, offset, stride, len }
+    }
+
+    /// Bytes that hold elements, and are otherwise filled.
+    fn holding<T: Pod>(self, elements: &[T]) -> Vec<u8> {
+        let size = size_of::<T>();
+        let mut bytes = self.bytes(size);
+        for (i, element) in elements.iter().enumerate() {
+            bytes[self.element(i, size)].copy_from_slice(bytemuck::bytes_of(element));
+        }
+        bytes
+    }
+}
+
+/// A codec's functions of strides, over native codes.
+struct Typed;
+
+impl Visitor for Typed {
+    type Output = fn() -> Result<(), String>;
+    fn visit<C: Codec>(self) -> fn() -> Result<(), String> {
+        typed::<C>
+    }
+}
+
+fn typed<C: Codec>() -> Result<(), String> {
+    let mut rng = Rng::new(3);
+    let finer = AnyCodec::of(C::FORMAT).is_finer_than_f32();
+    for len in LENGTHS {
+        let vectors = &mixed_vectors(len as u64, 2100)[..len];
+        let (from, to) =
+            (Place::random(&mut rng, 12, len), Place::random(&mut rng, size_of::<C::Code>(), len));
+        let bytes = from.holding(vectors);
+        for precise in [false, true] {
+            if precise && finer && len > 70 {
+                continue;
+            }
+            let (encode, single): (fn(_, _) -> _, fn(_) -> _) = if precise {
+                (C::encode_strided_precise, C::encode_precise)
+            } else {
+                (C::encode_strided, C::encode)
+            };
+            let codes: Vec<C::Code> = vectors.iter().map(|&v| single(v)).collect();
+            let mut out = to.bytes(size_of::<C::Code>());
+            encode(from.read(&bytes), to.write(&mut out)).unwrap();
+            if out != to.holding(&codes) {
+                return Err(format!("{}: {from:?} to {to:?}, precise {precise}", C::FORMAT));
+            }
+            let iterated: Vec<C::Code> = if precise {
+                C::encode_iter_precise(vectors.iter().copied()).collect()
+            } else {
+                C::encode_iter(vectors.iter().copied()).collect()
+            };
+            if iterated != codes {
+                return Err(format!("{}: an iterator of {len}", C::FORMAT));
+            }
+        }
+        // Any bit patterns.
+        let mut codes = vec![C::Code::zeroed(); len];
+        bytemuck::cast_slice_mut(&mut codes)
+            .iter_mut()
+            .for_each(|b: &mut u8| *b = rng.bits() as u8);
+        let decoded: Vec<[u32; 3]> =
+            codes.iter().map(|&c| C::decode(c).map(f32::to_bits)).collect();
+        let mut out = from.bytes(12);
+        C::decode_strided(to.read(&to.holding(&codes)), from.write(&mut out)).unwrap();
+        // Float32x3 gives back any NaN.
+        let wanted = from.holding(&decoded);
+        if out != wanted {
+            return Err(format!("{}: {to:?} back to {from:?}", C::FORMAT));
+        }
+        let iterated = C::decode_iter(codes.iter().copied()).map(|v| v.map(f32::to_bits));
+        if !iterated.eq(decoded) {
+            return Err(format!("{}: {len} decoded by an iterator", C::FORMAT));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn typed_strides_and_iterators_give_what_single_vectors_do() {
+    let all: Vec<_> = Format::ALL
+        .iter()
+        .filter(|f| representatives::contains(**f))
+        .map(|f| f.visit(Typed))
+        .collect();
+    check_all(&all, |check| check());
+}
+
+#[test]
+fn formats_take_strides_and_arrays_of_structures() {
+    check_all(Format::ALL, |&format| {
+        let mut rng = Rng::new(format as u64);
+        let codec = AnyCodec::of(format);
+        let size = format.code_size();
+        let little_endian = |code: u128| code.to_le_bytes()[..size].to_vec();
+        for len in [0, 1, 9, 65, if codec.is_finer_than_f32() { 70 } else { 1030 }] {
+            let vectors = &mixed_vectors(len as u64 + 5, 1030)[..len];
+            let (from, to) = (Place::random(&mut rng, 12, len), Place::random(&mut rng, size, len));
+            for effort in Effort::BOTH {
+                let (strided, aos): (fn(_, _, _) -> _, fn(_, _, &mut [u8]) -> _) = match effort {
+                    Effort::Fast => (Format::encode_strided, Format::encode_aos::<3>),
+                    Effort::Precise => {
+                        (Format::encode_strided_precise, Format::encode_aos_precise::<3>)
+                    }
+                };
+                let codes: Vec<u8> = vectors
+                    .iter()
+                    .flat_map(|&v| little_endian(codec.encode_with(effort, v)))
+                    .collect();
+                let mut out = vec![FILL; size * len];
+                aos(format, vectors, &mut out[..]).unwrap();
+                if out != codes {
+                    return Err(format!("{format}: arrays of structures, {effort:?}"));
+                }
+                let mut out = to.bytes(size);
+                strided(format, from.read(&from.holding(vectors)), to.write(&mut out)).unwrap();
+                let mut wanted = to.bytes(size);
+                for (i, code) in codes.chunks(size).enumerate() {
+                    wanted[to.element(i, size)].copy_from_slice(code);
+                }
+                if out != wanted {
+                    return Err(format!("{format}: {from:?} to {to:?}, {effort:?}"));
+                }
+            }
+            let codes = random_codes(format, len as u64, len);
+            let (mut dense, mut strided) = (vec![], to.bytes(size));
+            for (i, &code) in codes.iter().enumerate() {
+                dense.extend(little_endian(code));
+                strided[to.element(i, size)].copy_from_slice(&little_endian(code));
+            }
+            let decoded: Vec<Vector> = codes.iter().map(|&code| (codec.decode)(code)).collect();
+            let bits =
+                |v: &[Vector]| -> Vec<[u32; 3]> { v.iter().map(|v| v.map(f32::to_bits)).collect() };
+            let mut out = vec![[0.0; 3]; len];
+            format.decode_aos(&dense, &mut out).unwrap();
+            if bits(&out) != bits(&decoded) {
+                return Err(format!("{format}: {len} decoded to arrays of structures"));
+            }
+            let mut out = from.bytes(12);
+            format.decode_strided(to.read(&strided), from.write(&mut out)).unwrap();
+            if out != from.holding(&bits(&decoded)) {
+                return Err(format!("{format}: {to:?} back to {from:?}"));
+            }
+        }
+        Ok(())
+    });
+}
+
+/// Fields before, after and over each other, with and without room between elements.
+#[test]
+fn codes_replace_vectors_in_place() {
+    fn check<C: Codec>() {
+        let size = size_of::<C::Code>();
+        for (vector, code, gap) in
+            [(0, 0, 0), (0, 12, 0), (size, 0, 3), (5, 9, 1), (7, 30, 0), (20, 7, 9), (4, 2, 0)]
+        {
+            let span = (vector + 12).max(code + size) - vector.min(code);
+            let stride = span + gap;
+            for len in LENGTHS {
+                let vectors = &mixed_vectors(9, 2100)[..len];
+                let places = [vector, code].map(|offset| Place { offset, stride, len });
+                let end = vector.min(code)
+                    + len.saturating_sub(1) * stride
+                    + if len > 0 { span } else { 0 };
+                let mut bytes = vec![FILL; end];
+                let put = |bytes: &mut Vec<u8>, i, element: &[u8], place: Place| {
+                    bytes[place.element(i, element.len())].copy_from_slice(element);
+                };
+                for (i, v) in vectors.iter().enumerate() {
+                    put(&mut bytes, i, bytemuck::bytes_of(v), places[0]);
+                }
+                let mut wanted = bytes.clone();
+                let codes: Vec<C::Code> = vectors.iter().map(|&v| C::encode(v)).collect();
+                for (i, code) in codes.iter().enumerate() {
+                    put(&mut wanted, i, bytemuck::bytes_of(code), places[1]);
+                }
+                C::encode_within(places[0].write(&mut bytes), code).unwrap();
+                assert_eq!(bytes, wanted, "{} {vector} {code} {gap} {len}", C::FORMAT);
+                for (i, &code) in codes.iter().enumerate() {
+                    put(&mut wanted, i, bytemuck::bytes_of(&C::decode(code)), places[0]);
+                }
+                C::decode_within(places[1].write(&mut bytes), vector).unwrap();
+                assert_eq!(bytes, wanted, "{} {vector} {code} {gap} {len} back", C::FORMAT);
+            }
+        }
+    }
+    check::<Oct8>();
+    check::<Oct16>();
+    check::<Oct24>();
+    check::<Oct32>();
+    check::<Snorm16x3>();
+}
+
+#[test]
+fn formats_work_in_place_too() {
+    let vectors = mixed_vectors(4, 300);
+    for format in [Format::Oct16, Format::Snorm8x3, Format::Octant16] {
+        let codec = AnyCodec::of(format);
+        let size = format.code_size();
+        for effort in Effort::BOTH {
+            let mut bytes: Vec<u8> = bytemuck::cast_slice(&vectors).to_vec();
+            fn whole(bytes: &mut [u8]) -> StridedMut<'_> {
+                let len = bytes.len() / 12;
+                StridedMut { bytes, offset: 0, stride: 12, len }
+            }
+            match effort {
+                Effort::Fast => format.encode_within(whole(&mut bytes), 8).unwrap(),
+                Effort::Precise => format.encode_within_precise(whole(&mut bytes), 8).unwrap(),
+            }
+            for (row, &v) in bytes.chunks(12).zip(&vectors) {
+                let code = codec.encode_with(effort, v).to_le_bytes();
+                assert_eq!(row[8..][..size], code[..size], "{format}");
+                assert_eq!(row[..8], bytemuck::bytes_of(&v)[..8]);
+            }
+            let codes = StridedMut { offset: 8, ..whole(&mut bytes) };
+            format.decode_within(codes, 0).unwrap();
+            for (row, &v) in bytes.chunks(12).zip(&vectors) {
+                let decoded = (codec.decode)(codec.encode_with(effort, v));
+                assert_eq!(row, bytemuck::bytes_of(&decoded), "{format}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rotations_and_frames_have_strides() {
+    fn rotations<C: QuaternionCodec>() {
+        let mut rng = Rng::new(8);
+        for len in LENGTHS {
+            let q: Vec<[f32; 4]> =
+                (0..len).map(|_| [(); 4].map(|()| rng.bits() as i32 as f32)).collect();
+            let (from, to) = (
+                Place::random(&mut rng, 16, len),
+                Place::random(&mut rng, size_of::<C::Code>(), len),
+            );
+            let bytes = from.holding(&q);
+            let mut out = to.bytes(size_of::<C::Code>());
+            C::encode_strided(from.read(&bytes), to.write(&mut out)).unwrap();
+            let codes: Vec<C::Code> = q.iter().map(|&q| C::encode(q)).collect();
+            assert_eq!(out, to.holding(&codes), "{} {from:?} {to:?}", C::NAME);
+            let mut back = from.bytes(16);
+            C::decode_strided(to.read(&out), from.write(&mut back)).unwrap();
+            let decoded: Vec<[f32; 4]> = codes.iter().map(|&code| C::decode(code)).collect();
+            assert_eq!(back, from.holding(&decoded), "{} {to:?} {from:?}", C::NAME);
+            C::encode_strided_precise(from.read(&bytes), to.write(&mut out)).unwrap();
+            let codes: Vec<C::Code> = q.iter().map(|&q| C::encode_precise(q)).collect();
+            assert_eq!(out, to.holding(&codes), "{} {from:?} {to:?}", C::NAME);
+        }
+    }
+    rotations::<SmallestThree32>();
+    rotations::<SmallestThree48>();
+    rotations::<SmallestThree64>();
+    rotations::<TanThree32>();
+
+    fn frames<C: FrameCodec>() {
+        let mut rng = Rng::new(9);
+        for len in LENGTHS {
+            let normals = &mixed_vectors(10, 2100)[..len];
+            let tangents: Vec<[f32; 4]> =
+                (0..len).map(|_| [(); 4].map(|()| rng.bits() as i32 as f32)).collect();
+            let [n, t] = [12, 16].map(|size| Place::random(&mut rng, size, len));
+            let to = Place::random(&mut rng, size_of::<C::Code>(), len);
+            let bytes = [n.holding(normals), t.holding(&tangents)];
+            let mut dense = vec![C::Code::zeroed(); len];
+            let single =
+                |precise: bool| -> Vec<C::Code> {
+                    let frames =
+                        normals.iter().zip(&tangents).map(|(&normal, &[x, y, z, handedness])| {
+                            Frame { normal, tangent: [x, y, z], handedness }
+                        });
+                    frames.map(if precise { C::encode_precise } else { C::encode }).collect()
+                };
+            let mut out = to.bytes(size_of::<C::Code>());
+            let skew = C::encode_strided(n.read(&bytes[0]), t.read(&bytes[1]), to.write(&mut out));
+            assert_eq!(out, to.holding(&single(false)), "{} {n:?} {t:?} {to:?}", C::NAME);
+            let same = C::encode_aos(normals, &tangents, &mut dense).unwrap();
+            assert_eq!(skew.unwrap(), same);
+            C::encode_strided_precise(n.read(&bytes[0]), t.read(&bytes[1]), to.write(&mut out))
+                .unwrap();
+            let codes = single(true);
+            assert_eq!(out, to.holding(&codes), "{} {n:?} {t:?} {to:?}", C::NAME);
+            let [mut normals_out, mut tangents_out] = [n.bytes(12), t.bytes(16)];
+            C::decode_strided(to.read(&out), n.write(&mut normals_out), t.write(&mut tangents_out))
+                .unwrap();
+            let decoded: Vec<Frame> = codes.iter().map(|&code| C::decode(code)).collect();
+            let normals: Vec<_> = decoded.iter().map(|f| f.normal).collect();
+            let tangents: Vec<_> = decoded
+                .iter()
+                .map(|f| [f.tangent[0], f.tangent[1], f.tangent[2], f.handedness])
+                .collect();
+            assert_eq!(normals_out, n.holding(&normals));
+            assert_eq!(tangents_out, t.holding(&tangents));
+        }
+    }
+    frames::<OctAngle32>();
+    frames::<OctAngle64>();
+    frames::<QTangent64>();
+}
+
+#[test]
+fn what_does_not_fit_is_refused_and_nothing_written() {
+    let bytes = [0; 100];
+    let read = |offset, stride, len| Strided { bytes: &bytes, offset, stride, len };
+    let mut out = [7; 30];
+    let refused = |v: Strided<'_>, offset, stride, len, out: &mut [u8]| {
+        let codes = StridedMut { bytes: out, offset, stride, len };
+        Oct16::encode_strided(v, codes).unwrap_err()
+    };
+    let bounds = StrideMismatch::Bounds { offset: 4, stride: 20, len: 6, size: 12, bytes: 100 };
+    assert_eq!(refused(read(4, 20, 6), 0, 2, 6, &mut out), bounds);
+    // The last element may end before a whole stride, but not before itself.
+    let bounds = StrideMismatch::Bounds { offset: 29, stride: 60, len: 2, size: 12, bytes: 100 };
+    assert_eq!(refused(read(29, 60, 2), 0, 2, 2, &mut out), bounds);
+    let bounds = StrideMismatch::Bounds { offset: 1, stride: 28, len: 3, size: 2, bytes: 30 };
+    assert_eq!(refused(read(0, 12, 3), 1, 28, 3, &mut out), bounds);
+    for stride in [0, 11] {
+        let expected = StrideMismatch::Stride { stride, size: 12 };
+        assert_eq!(refused(read(0, stride, 2), 0, 2, 2, &mut out), expected);
+    }
+    assert_eq!(
+        refused(read(0, 12, 2), 0, 1, 2, &mut out),
+        StrideMismatch::Stride { stride: 1, size: 2 }
+    );
+    assert_eq!(
+        refused(read(0, 12, 2), 0, 2, 3, &mut out),
+        StrideMismatch::Lengths { vectors: 2, codes: 3 }
+    );
+    for (offset, stride, len) in
+        [(usize::MAX, 12, 2), (0, usize::MAX, 2), (0, usize::MAX / 2, 3), (0, 12, usize::MAX)]
+    {
+        let bounds = StrideMismatch::Bounds { offset, stride, len, size: 12, bytes: 100 };
+        assert_eq!(refused(read(offset, stride, len), 0, 2, len, &mut out), bounds);
+    }
+    assert_eq!(out, [7; 30]);
+    // Where the only element lies does not depend on the stride.
+    let one = StridedMut { bytes: &mut [7; 5], offset: 2, stride: usize::MAX, len: 1 };
+    assert_eq!(Oct16::encode_strided(read(88, usize::MAX, 1), one), Ok(()));
+    let one = StridedMut { bytes: &mut [7; 16], offset: 0, stride: usize::MAX, len: 1 };
+    assert_eq!(Oct16::encode_within(one, 13), Ok(()));
+    // No elements lie anywhere.
+    let none = StridedMut { bytes: &mut [], offset: 12, stride: 32, len: 0 };
+    assert_eq!(Oct16::encode_strided(read(200, 12, 0), none), Ok(()));
+
+    let mut bytes = [7; 40];
+    fn within(bytes: &mut [u8], stride: usize, len: usize) -> StridedMut<'_> {
+        StridedMut { bytes, offset: 0, stride, len }
+    }
+    assert_eq!(
+        Oct32::encode_within(within(&mut bytes, 15, 2), 12),
+        Err(StrideMismatch::Span { stride: 15, span: 16 })
+    );
+    assert_eq!(
+        Oct32::decode_within(within(&mut bytes, 20, 2), usize::MAX - 3),
+        Err(StrideMismatch::Span { stride: 20, span: usize::MAX })
+    );
+    assert_eq!(
+        Oct32::encode_within(within(&mut bytes, 16, 3), 12),
+        Err(StrideMismatch::Bounds { offset: 0, stride: 16, len: 3, size: 16, bytes: 40 })
+    );
+    assert_eq!(bytes, [7; 40]);
+    assert_eq!(
+        bounds_text(),
+        "6 elements of 12 bytes from byte 4 on, 20 bytes apart, do not lie in 100 bytes"
+    );
+    assert_eq!(
+        Format::Oct24.encode_aos(&[[1.0; 3]; 3], &mut [0; 8]),
+        Err(LengthMismatch::AosBytes { vectors: 3, bytes: 8, code_size: 3 })
+    );
+    let frames = OctAngle32::encode_strided(
+        read(0, 12, 2),
+        read(0, 16, 3),
+        StridedMut { bytes: &mut out, offset: 0, stride: 4, len: 2 },
+    );
+    assert_eq!(frames, Err(StrideMismatch::Frames { normals: 2, tangents: 3, codes: 2 }));
+}
+
+fn bounds_text() -> String {
+    StrideMismatch::Bounds { offset: 4, stride: 20, len: 6, size: 12, bytes: 100 }.to_string()
+}
+
+#[test]
+fn iterators_know_their_length_and_stop() {
+    for len in [0, 1, 63, 64, 65, 200] {
+        let mut codes = Oct16::encode_iter((0..len).map(|i| [i as f32, 1.0, 0.0]));
+        for left in (0..len).rev() {
+            assert_eq!(codes.len(), left + 1);
+            assert!(codes.next().is_some());
+        }
+        assert_eq!((codes.len(), codes.next(), codes.next()), (0, None, None));
+        let vectors = Oct16::decode_iter(vec![0; len]);
+        assert_eq!((vectors.len(), vectors.count()), (len, len));
+    }
+    // Of an unknown number.
+    let odd = (0..100).filter(|i| i % 2 == 1).map(|i| [i as f32, 1.0, 0.0]);
+    let mut codes = Oct16::encode_iter(odd);
+    assert_eq!(codes.size_hint(), (0, Some(100)));
+    assert!(codes.next().is_some());
+    assert_eq!(codes.size_hint(), (49, Some(49)));
+    // What comes after an end does not come.
+    let mut calls = 0;
+    let flickering = core::iter::from_fn(|| {
+        calls += 1;
+        (calls % 3 != 0).then_some([1.0, 0.0, 0.0])
+    });
+    assert_eq!(Oct16::encode_iter(flickering).count(), 2);
+
+    #[derive(Clone, Copy)]
+    struct Normal(f32);
+    impl From<Normal> for [f32; 3] {
+        fn from(v: Normal) -> [f32; 3] {
+            [0.0, v.0, 1.0]
+        }
+    }
+    let codes: Vec<u32> = Oct32::encode_iter_precise([Normal(0.5), Normal(-0.5)]).collect();
+    assert_eq!(codes, [0.5, -0.5].map(|y| Oct32::encode_precise([0.0, y, 1.0])));
+    let _: [u8; 3] = Snorm8x3::encode_iter([Normal(0.0)]).next().unwrap();
+}
