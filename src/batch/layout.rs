@@ -13,6 +13,9 @@ use crate::simd::{Simd, Use};
 pub(crate) const PART: usize = if cfg!(feature = "std") { 256 } else { FEW };
 /// The same, where at most four columns need room.
 const MANY: usize = if cfg!(feature = "std") { 1024 } else { FEW };
+/// The same, where rows come from memory and most of their bytes are others': then the next ones are fetched while these are
+/// computed.
+const FAR: usize = if cfg!(feature = "std") { 128 } else { FEW };
 /// A part of so few that the room for it costs little.
 const FEW: usize = 64;
 
@@ -67,6 +70,8 @@ pub(crate) trait Read<'a>: Copy {
     /// Number of columns in the room.
     const COLUMNS: usize;
 
+    /// Size in bytes of rows and what is between them; 0 if it consists of slices.
+    fn row_bytes(&self) -> usize;
     /// The slices, if it consists of them.
     fn direct(self) -> Option<InputSlices<'a, Self::Kind>>;
     /// `len` elements from the one at `first` on, at most `LEN`.
@@ -87,6 +92,8 @@ pub(crate) trait Write<'a>: Sized {
     /// Number of columns in the room.
     const COLUMNS: usize;
 
+    /// Size in bytes of rows and what is between them; 0 if it consists of slices.
+    fn row_bytes(&self) -> usize;
     /// Whether it consists of slices.
     fn is_direct(&self) -> bool;
     /// The slices, if it consists of them.
@@ -138,11 +145,18 @@ pub(crate) fn encode_in_parts<'a, R: Read<'a>, const S: usize>(
 ) {
     if codes.len() <= FEW {
         encode_parts::<R, S, FEW>(input, codes, kernel);
+    } else if is_far(input.row_bytes(), codes.len()) {
+        encode_parts::<R, S, FAR>(input, codes, kernel);
     } else if const { R::COLUMNS + S <= 4 } {
         encode_parts::<R, S, MANY>(input, codes, kernel);
     } else {
         encode_parts::<R, S, PART>(input, codes, kernel);
     }
+}
+
+/// Whether rows of so many bytes are beyond the caches, and longer than what is read or written of them.
+fn is_far(row_bytes: usize, len: usize) -> bool {
+    row_bytes > 4 << 20 && row_bytes / 24 >= len
 }
 
 #[inline(never)]
@@ -217,6 +231,8 @@ pub(crate) fn decode_in_parts<'a, W: Write<'a>, const S: usize>(
 ) {
     if codes.len() <= FEW {
         decode_parts::<W, S, FEW>(codes, output, kernel);
+    } else if is_far(output.row_bytes(), codes.len()) {
+        decode_parts::<W, S, FAR>(codes, output, kernel);
     } else if const { W::COLUMNS + S <= 4 } {
         decode_parts::<W, S, MANY>(codes, output, kernel);
     } else {
@@ -393,6 +409,12 @@ impl<'a, const K: usize> Read<'a> for Vectors<'a, K> {
     type Buffer<const LEN: usize> = Option<[[f32; LEN]; K]>;
     const COLUMNS: usize = K;
 
+    fn row_bytes(&self) -> usize {
+        match self {
+            Vectors::Columns(_) => 0,
+            Vectors::Rows { bytes, .. } => bytes.len(),
+        }
+    }
     #[inline]
     fn direct(self) -> Option<[&'a [f32]; K]> {
         match self {
@@ -428,6 +450,12 @@ impl<'a, const K: usize> Write<'a> for VectorsMut<'a, K> {
     type Buffer<const LEN: usize> = Option<[[f32; LEN]; K]>;
     const COLUMNS: usize = K;
 
+    fn row_bytes(&self) -> usize {
+        match self {
+            VectorsMut::Columns(_) => 0,
+            VectorsMut::Rows { bytes, .. } => bytes.len(),
+        }
+    }
     #[inline]
     fn is_direct(&self) -> bool {
         matches!(self, VectorsMut::Columns(_))
@@ -483,6 +511,9 @@ impl<'a, A: Read<'a>, B: Read<'a>> Read<'a> for (A, B) {
     type Buffer<const LEN: usize> = (A::Buffer<LEN>, B::Buffer<LEN>);
     const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
 
+    fn row_bytes(&self) -> usize {
+        self.0.row_bytes().saturating_add(self.1.row_bytes())
+    }
     #[inline]
     fn direct(self) -> Option<InputSlices<'a, Self::Kind>> {
         Some((self.0.direct()?, self.1.direct()?))
@@ -502,6 +533,10 @@ impl<'a, A: Write<'a>, B: Write<'a>> Write<'a> for (A, B) {
     type Buffer<const LEN: usize> = (A::Buffer<LEN>, B::Buffer<LEN>);
     const COLUMNS: usize = A::COLUMNS + B::COLUMNS;
 
+    #[inline]
+    fn row_bytes(&self) -> usize {
+        self.0.row_bytes().saturating_add(self.1.row_bytes())
+    }
     #[inline]
     fn is_direct(&self) -> bool {
         self.0.is_direct() && self.1.is_direct()
