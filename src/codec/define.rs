@@ -3,7 +3,6 @@
 use super::format::Visitor;
 use super::sealed::Batch;
 use super::{Axis, Codec, codec_table};
-use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{CodeSlice, CodeSliceMut, from_native, to_native};
 use crate::formula::names::*;
 use crate::formula::{Formula, Kernels, Source, kernels};
@@ -221,22 +220,22 @@ macro_rules! define_codecs {
                 match self {$($(#[cfg(feature = $feature)] Format::$name => v.visit::<$name>(),)*)*}
             }
 
-            pub(super) fn encode_batch(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                layout::encode(vectors, codes, &mut |v, codes| match self {
+            pub(super) fn encode_columns(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+                match self {
                     $($(#[cfg(feature = $feature)] Format::$name => $name::encode_columns(v, codes),)*)*
-                });
+                }
             }
 
-            pub(super) fn encode_batch_precise(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
-                layout::encode(vectors, codes, &mut |v, codes| match self {
+            pub(super) fn encode_columns_precise(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+                match self {
                     $($(#[cfg(feature = $feature)] Format::$name => $name::encode_columns_precise(v, codes),)*)*
-                });
+                }
             }
 
-            pub(crate) fn decode_batch(self, codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
-                layout::decode(codes, vectors, &mut |codes, v, fence| match self {
+            pub(super) fn decode_columns(self, codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence) {
+                match self {
                     $($(#[cfg(feature = $feature)] Format::$name => $name::decode_columns(codes, v, fence),)*)*
-                });
+                }
             }
         }
     };

@@ -198,8 +198,23 @@ impl Format {
     }
 
     #[inline]
-    fn layout(self) -> CodeLayout {
+    pub(super) fn layout(self) -> CodeLayout {
         CodeLayout::little_endian(self.code_size())
+    }
+
+    #[inline(never)]
+    fn encode_batch(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+        layout::encode(vectors, codes, &mut |v, codes| self.encode_columns(v, codes));
+    }
+
+    #[inline(never)]
+    fn encode_batch_precise(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+        layout::encode(vectors, codes, &mut |v, codes| self.encode_columns_precise(v, codes));
+    }
+
+    #[inline(never)]
+    pub(crate) fn decode_batch(self, codes: Codes<'_>, vectors: VectorsMut<'_, 3>) {
+        layout::decode(codes, vectors, &mut |codes, v, fence| self.decode_columns(codes, v, fence));
     }
 
     /// The format whose name, as [`name`](Format::name) gives it, this is. ASCII case does not matter.

@@ -92,7 +92,12 @@ impl<C: Codec, I: Iterator<Item: Into<[f32; 3]>>> Iterator for EncodeIter<C, I> 
     }
 }
 
-impl<C: Codec, I: ExactSizeIterator<Item: Into<[f32; 3]>>> ExactSizeIterator for EncodeIter<C, I> {}
+// The provided `len` could panic.
+impl<C: Codec, I: ExactSizeIterator<Item: Into<[f32; 3]>>> ExactSizeIterator for EncodeIter<C, I> {
+    fn len(&self) -> usize {
+        self.vectors.len().saturating_add(self.codes.left())
+    }
+}
 impl<C: Codec, I: Iterator<Item: Into<[f32; 3]>>> FusedIterator for EncodeIter<C, I> {}
 
 impl<C: Codec, I: fmt::Debug> fmt::Debug for EncodeIter<C, I> {
@@ -142,7 +147,11 @@ impl<C: Codec, I: Iterator<Item = C::Code>> Iterator for DecodeIter<C, I> {
     }
 }
 
-impl<C: Codec, I: ExactSizeIterator<Item = C::Code>> ExactSizeIterator for DecodeIter<C, I> {}
+impl<C: Codec, I: ExactSizeIterator<Item = C::Code>> ExactSizeIterator for DecodeIter<C, I> {
+    fn len(&self) -> usize {
+        self.codes.len().saturating_add(self.vectors.left())
+    }
+}
 impl<C: Codec, I: Iterator<Item = C::Code>> FusedIterator for DecodeIter<C, I> {}
 
 impl<C, I: fmt::Debug> fmt::Debug for DecodeIter<C, I> {

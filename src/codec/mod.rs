@@ -1,5 +1,6 @@
 //! The public codecs: what each can do, and how to choose one at run time.
 
+mod axis_order;
 mod define;
 mod format;
 mod iter;
@@ -10,6 +11,7 @@ use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMu
 use crate::error::{LengthMismatch, StrideMismatch};
 use crate::vector::{Soa, SoaMut, Strided, StridedMut};
 
+pub use axis_order::AxisOrder;
 pub use define::*;
 pub use format::{UnknownFormat, Visitor, transcode};
 pub use iter::{DecodeIter, EncodeIter};
@@ -350,9 +352,52 @@ impl Axis {
 }
 
 pub(crate) mod sealed {
-    use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
+    use super::{Codec, Format};
+    use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
     use crate::batch::storage::{CodeSlice, CodeSliceMut};
     use crate::simd::stream::Fence;
+
+    /// A codec, by its type or its [`Format`], with the kernels of [`Batch`].
+    pub trait Chosen: Copy {
+        fn code_layout(self) -> CodeLayout;
+        fn encode_chosen(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>);
+        fn encode_chosen_precise(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>);
+        fn decode_chosen(self, codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence);
+    }
+
+    impl<C: Codec> Chosen for C {
+        #[inline]
+        fn code_layout(self) -> CodeLayout {
+            CodeLayout::native::<C::Code>()
+        }
+        #[inline]
+        fn encode_chosen(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+            C::encode_columns(v, codes);
+        }
+        #[inline]
+        fn encode_chosen_precise(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+            C::encode_columns_precise(v, codes);
+        }
+        #[inline]
+        fn decode_chosen(self, codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence) {
+            C::decode_columns(codes, v, fence);
+        }
+    }
+
+    impl Chosen for Format {
+        fn code_layout(self) -> CodeLayout {
+            self.layout()
+        }
+        fn encode_chosen(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+            self.encode_columns(v, codes);
+        }
+        fn encode_chosen_precise(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {
+            self.encode_columns_precise(v, codes);
+        }
+        fn decode_chosen(self, codes: CodeSlice<'_>, v: [&mut [f32]; 3], fence: &Fence) {
+            self.decode_columns(codes, v, fence);
+        }
+    }
 
     /// The kernels of a codec, and by them its batches in any layout. What is inlined is a call.
     pub trait Batch {

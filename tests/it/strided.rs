@@ -6,8 +6,8 @@ use unitpack::quaternion::{
     QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, TanThree32,
 };
 use unitpack::{
-    Codec, Format, LengthMismatch, Oct8, Oct16, Oct24, Oct32, Snorm8x3, Snorm16x3, StrideMismatch,
-    Strided, StridedMut, Visitor,
+    AxisOrder, Codec, Format, LengthMismatch, Oct8, Oct16, Oct24, Oct32, Snorm8x3, Snorm16x3,
+    StrideMismatch, Strided, StridedMut, Visitor,
 };
 use unitpack_test::codes::random_codes;
 use unitpack_test::random::{Rng, mixed_vectors};
@@ -275,6 +275,55 @@ fn formats_work_in_place_too() {
             }
         }
     }
+}
+
+/// The name says which components are the codec's.
+#[test]
+fn axes_have_any_order() {
+    let vectors = mixed_vectors(14, 1100);
+    for order in AxisOrder::ALL {
+        let name = format!("{order:?}").to_lowercase();
+        let ordered = |v: Vector| -> Vector {
+            core::array::from_fn(|i| v["xyz".find(&name[i..=i]).unwrap()])
+        };
+        assert_eq!(order.apply([1.0, 2.0, 3.0]), ordered([1.0, 2.0, 3.0]));
+        assert_eq!(order.undo(ordered([1.0, 2.0, 3.0])), [1.0, 2.0, 3.0]);
+
+        let read = Strided::of(&vectors, 0);
+        let mut codes = vec![0u32; vectors.len()];
+        order.encode_strided(Oct32, read, StridedMut::of(&mut codes, 0)).unwrap();
+        assert!(codes.iter().zip(&vectors).all(|(&code, &v)| code == Oct32::encode(ordered(v))));
+        order.encode_strided_precise(Oct32, read, StridedMut::of(&mut codes, 0)).unwrap();
+        assert!(
+            codes.iter().zip(&vectors).all(|(&code, &v)| code == Oct32::encode_precise(ordered(v)))
+        );
+        // Little-endian, by a format.
+        let mut bytes = vec![0; 4 * vectors.len()];
+        let to = StridedMut { bytes: &mut bytes, offset: 0, stride: 4, len: vectors.len() };
+        order.encode_strided_precise(Format::Oct32, read, to).unwrap();
+        assert!(bytes.chunks(4).zip(&codes).all(|(bytes, code)| bytes == code.to_le_bytes()));
+
+        let mut decoded = vectors.clone();
+        let from = Strided::of(&codes, 0);
+        order.decode_strided(Oct32, from, StridedMut::of(&mut decoded, 0)).unwrap();
+        assert!(decoded.iter().zip(&codes).all(|(&v, &code)| ordered(v) == Oct32::decode(code)));
+
+        let mut within = vectors.clone();
+        order.encode_within(Oct32, StridedMut::of(&mut within, 0), 8).unwrap();
+        let code = |v: Vector| Oct32::encode(ordered(v));
+        assert!(within.iter().zip(&vectors).all(|(w, &v)| w[2].to_bits() == code(v)));
+        order.decode_within(Oct32, StridedMut::of(&mut within, 8), 0).unwrap();
+        assert!(within.iter().zip(&vectors).all(|(&w, &v)| ordered(w) == Oct32::decode(code(v))));
+        let mut within = vectors.clone();
+        order.encode_within_precise(Oct32, StridedMut::of(&mut within, 0), 0).unwrap();
+        assert!(within.iter().zip(&codes).all(|(w, code)| w[0].to_bits() == *code));
+    }
+    let read = Strided::of(&vectors, 0);
+    let none = StridedMut { bytes: &mut [], offset: 0, stride: 4, len: 0 };
+    assert_eq!(
+        AxisOrder::Zyx.encode_strided(Oct32, read, none),
+        Err(StrideMismatch::Lengths { vectors: vectors.len(), codes: 0 })
+    );
 }
 
 #[test]

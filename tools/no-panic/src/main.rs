@@ -90,6 +90,16 @@ impl Visitor for Everything {
         black_box(Format::encode_within(C::FORMAT, strided_mut(a), black_box(3)).is_ok());
         black_box(Format::encode_within_precise(C::FORMAT, strided_mut(a), black_box(3)).is_ok());
         black_box(Format::decode_within(C::FORMAT, strided_mut(a), black_box(3)).is_ok());
+        let order = black_box(AxisOrder::Zxy);
+        let (v, code) = (strided(a), black_box(3));
+        black_box(AxisOrder::encode_strided(order, C::FORMAT, v, strided_mut(b)).is_ok());
+        black_box(
+            AxisOrder::encode_strided_precise(order, C::FORMAT, strided(a), strided_mut(b)).is_ok(),
+        );
+        black_box(AxisOrder::decode_strided(order, C::FORMAT, strided(a), strided_mut(b)).is_ok());
+        black_box(AxisOrder::encode_within(order, C::FORMAT, strided_mut(a), code).is_ok());
+        black_box(AxisOrder::encode_within_precise(order, C::FORMAT, strided_mut(a), code).is_ok());
+        black_box(AxisOrder::decode_within(order, C::FORMAT, strided_mut(a), code).is_ok());
         all_of(<C as Codec>::encode_iter(opaque(&mut [[0.5; 3]; LEN]).iter().copied()));
         all_of(<C as Codec>::encode_iter_precise(opaque(&mut [[0.5; 3]; LEN]).iter().copied()));
         all_of(<C as Codec>::decode_iter(black_box(&*codes).iter().copied()));
@@ -100,6 +110,21 @@ impl Visitor for Everything {
         black_box(transcode::<C, Oct16>(black_box(codes), opaque(&mut [0; LEN])).is_ok());
         black_box(transcode::<Float32x3, C>(opaque(&mut [[0; 3]; LEN]), black_box(codes)).is_ok());
     }
+}
+
+/// An order of axes, with a codec by its type.
+fn axis_order() {
+    let order = black_box(AxisOrder::Zxy);
+    black_box((AxisOrder::apply(order, black_box([0.5; 3])), AxisOrder::undo(order, [0.5; 3])));
+    derived::<AxisOrder>(order);
+    order.hash(&mut Sink);
+    let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+    black_box(order.encode_strided(Oct24, strided(a), strided_mut(b)).is_ok());
+    black_box(order.encode_strided_precise(Oct24, strided(a), strided_mut(b)).is_ok());
+    black_box(order.decode_strided(Oct24, strided(a), strided_mut(b)).is_ok());
+    black_box(order.encode_within(Oct24, strided_mut(a), black_box(3)).is_ok());
+    black_box(order.encode_within_precise(Oct24, strided_mut(a), black_box(3)).is_ok());
+    black_box(order.decode_within(Oct24, strided_mut(a), black_box(3)).is_ok());
 }
 
 /// Elements anywhere, or nowhere.
@@ -181,7 +206,8 @@ fn errors() {
         display::<StrideMismatch>(error);
         derived::<StrideMismatch>(error);
     }
-    let structures = opaque(&mut [[1u32; 3]; LEN]);
+    let mut structures = [[1u32; 3]; LEN];
+    let structures = opaque(&mut structures);
     black_box(Strided::of::<[u32; 3]>(structures, black_box(4)));
     black_box(StridedMut::of::<[u32; 3]>(structures, black_box(4)));
 }
@@ -548,6 +574,7 @@ fn all() {
         format(each);
     }
     errors();
+    axis_order();
     all_scalars();
     packing();
     all_dense();
