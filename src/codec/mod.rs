@@ -352,9 +352,9 @@ impl Axis {
 }
 
 pub(crate) mod sealed {
-    use super::{Codec, Format};
     use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
     use crate::batch::storage::{CodeSlice, CodeSliceMut};
+    use crate::codec::{Codec, Format};
     use crate::simd::stream::Fence;
 
     /// A codec, by its type or its [`Format`], with the kernels of [`Batch`].

@@ -67,6 +67,9 @@ impl Place {
     }
 }
 
+type Strides = fn(Format, Strided<'_>, StridedMut<'_>) -> Result<(), StrideMismatch>;
+type Structures = fn(Format, &[Vector], &mut [u8]) -> Result<(), LengthMismatch>;
+
 /// A codec's functions of strides, over native codes.
 struct Typed;
 
@@ -152,7 +155,7 @@ fn formats_take_strides_and_arrays_of_structures() {
             let vectors = &mixed_vectors(len as u64 + 5, 1030)[..len];
             let (from, to) = (Place::random(&mut rng, 12, len), Place::random(&mut rng, size, len));
             for effort in Effort::BOTH {
-                let (strided, aos): (fn(_, _, _) -> _, fn(_, _, &mut [u8]) -> _) = match effort {
+                let (strided, aos): (Strides, Structures) = match effort {
                     Effort::Fast => (Format::encode_strided, Format::encode_aos::<3>),
                     Effort::Precise => {
                         (Format::encode_strided_precise, Format::encode_aos_precise::<3>)
