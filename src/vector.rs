@@ -4,6 +4,7 @@ use core::ops::Range;
 
 use bytemuck::{AnyBitPattern, NoUninit};
 
+use crate::batch::doubles::Doubles;
 use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut, Within};
 use crate::error::StrideMismatch;
 
@@ -118,6 +119,12 @@ impl<'a> Strided<'a> {
     #[inline]
     pub(crate) fn vectors<const K: usize>(self) -> Result<Vectors<'a, K>, StrideMismatch> {
         Ok(Vectors::Rows { bytes: self.elements(4 * K)?, stride: self.stride })
+    }
+
+    /// Vectors of three native doubles.
+    #[inline]
+    pub(crate) fn doubles(self, hemisphere: bool) -> Result<Doubles<'a>, StrideMismatch> {
+        Ok(Doubles { bytes: self.elements(24)?, stride: self.stride, hemisphere })
     }
 
     #[inline]

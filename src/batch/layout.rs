@@ -568,7 +568,7 @@ impl<'a, A: Write<'a>, B: Write<'a>> Write<'a> for (A, B) {
 }
 
 /// The first `len` elements of each column.
-fn columns<const K: usize, const PART: usize>(
+pub(super) fn columns<const K: usize, const PART: usize>(
     buffer: &[[f32; PART]; K],
     len: usize,
 ) -> [&[f32]; K] {
@@ -576,7 +576,7 @@ fn columns<const K: usize, const PART: usize>(
 }
 
 /// The first `len` elements of each column, or `None` if there are fewer.
-fn columns_mut<const K: usize, const PART: usize>(
+pub(super) fn columns_mut<const K: usize, const PART: usize>(
     buffer: &mut [[f32; PART]; K],
     len: usize,
 ) -> Option<[&mut [f32]; K]> {

@@ -6,6 +6,7 @@
 pub(crate) mod code_int;
 mod codes;
 pub(crate) mod columns;
+pub(crate) mod doubles;
 pub(crate) mod layout;
 pub(crate) mod storage;
 

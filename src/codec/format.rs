@@ -4,6 +4,7 @@ use core::fmt;
 use core::str::FromStr;
 
 use super::{Codec, Format};
+use crate::batch::doubles::Doubles;
 use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
 use crate::error::{LengthMismatch, StrideMismatch};
 use crate::vector::{Soa, SoaMut, Strided, StridedMut};
@@ -197,6 +198,75 @@ impl Format {
         Ok(())
     }
 
+    /// Encodes as [`Codec::encode_aos_f64`] does, to tightly packed little-endian codes at any alignment.
+    ///
+    /// `bytes.len()` must be [`code_size`](Format::code_size) times `v.len()`. `N < 3` does not compile.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
+    #[inline]
+    pub fn encode_aos_f64<const N: usize>(
+        self,
+        v: &[[f64; N]],
+        bytes: &mut [u8],
+    ) -> Result<(), LengthMismatch> {
+        let size = self.code_size();
+        LengthMismatch::check_aos_bytes(v.len(), bytes.len(), size)?;
+        self.encode_doubles(
+            Doubles::rows(v, self.is_hemisphere()),
+            CodesMut::little_endian(bytes, size),
+        );
+        Ok(())
+    }
+
+    /// Encodes as [`Codec::encode_aos_f64_precise`] does, as [`encode_aos_f64`](Format::encode_aos_f64) takes vectors and
+    /// codes.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the lengths do not fit; nothing is written then.
+    #[inline]
+    pub fn encode_aos_f64_precise<const N: usize>(
+        self,
+        v: &[[f64; N]],
+        bytes: &mut [u8],
+    ) -> Result<(), LengthMismatch> {
+        let size = self.code_size();
+        LengthMismatch::check_aos_bytes(v.len(), bytes.len(), size)?;
+        self.encode_doubles_precise(
+            Doubles::rows(v, self.is_hemisphere()),
+            CodesMut::little_endian(bytes, size),
+        );
+        Ok(())
+    }
+
+    /// Encodes as [`Codec::encode_strided_f64`] does, to little-endian codes.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    pub fn encode_strided_f64(
+        self,
+        v: Strided<'_>,
+        codes: StridedMut<'_>,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        self.encode_doubles(v.doubles(self.is_hemisphere())?, codes.codes(self.layout())?);
+        Ok(())
+    }
+
+    /// Encodes as [`Codec::encode_strided_f64_precise`] does, to little-endian codes.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    pub fn encode_strided_f64_precise(
+        self,
+        v: Strided<'_>,
+        codes: StridedMut<'_>,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        self.encode_doubles_precise(v.doubles(self.is_hemisphere())?, codes.codes(self.layout())?);
+        Ok(())
+    }
+
     #[inline]
     pub(super) fn layout(self) -> CodeLayout {
         CodeLayout::little_endian(self.code_size())
@@ -209,6 +279,16 @@ impl Format {
 
     #[inline(never)]
     fn encode_batch_precise(self, vectors: Vectors<'_, 3>, codes: CodesMut<'_>) {
+        layout::encode(vectors, codes, &mut |v, codes| self.encode_columns_precise(v, codes));
+    }
+
+    #[inline(never)]
+    fn encode_doubles(self, vectors: Doubles<'_>, codes: CodesMut<'_>) {
+        layout::encode(vectors, codes, &mut |v, codes| self.encode_columns(v, codes));
+    }
+
+    #[inline(never)]
+    fn encode_doubles_precise(self, vectors: Doubles<'_>, codes: CodesMut<'_>) {
         layout::encode(vectors, codes, &mut |v, codes| self.encode_columns_precise(v, codes));
     }
 

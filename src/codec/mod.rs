@@ -7,6 +7,7 @@ mod iter;
 mod report;
 mod table;
 
+use crate::batch::doubles::{Doubles, to_f32};
 use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
 use crate::error::{LengthMismatch, StrideMismatch};
 use crate::vector::{Soa, SoaMut, Strided, StridedMut};
@@ -301,6 +302,95 @@ pub trait Codec: Copy + 'static + sealed::Batch {
         let layout = CodeLayout::native::<Self::Code>();
         let within = codes.within::<3>(vector_offset, code_offset, layout)?;
         layout::decode_within(within, &Self::decode_batch);
+        Ok(())
+    }
+
+    /// [`encode`](Codec::encode) for doubles of any length: of the direction they have, not of what they would be as `f32`,
+    /// where 1e40 is infinite.
+    ///
+    /// ```
+    /// use unitpack::{Codec, Oct32};
+    /// assert_eq!(Oct32::encode_f64([2e40, 1e40, 0.0]), Oct32::encode([2.0, 1.0, 0.0]));
+    /// ```
+    #[inline]
+    fn encode_f64(v: [f64; 3]) -> Self::Code {
+        Self::encode(to_f32(v, Self::FORMAT.is_hemisphere()))
+    }
+
+    /// [`encode_precise`](Codec::encode_precise) for doubles, as [`encode_f64`](Codec::encode_f64) takes them.
+    #[inline]
+    fn encode_precise_f64(v: [f64; 3]) -> Self::Code {
+        Self::encode_precise(to_f32(v, Self::FORMAT.is_hemisphere()))
+    }
+
+    /// [`encode_f64`](Codec::encode_f64) for arrays of structures of `N` doubles, of which the first three are x, y and z.
+    /// `N < 3` does not compile.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
+    fn encode_aos_f64<const N: usize>(
+        v: &[[f64; N]],
+        codes: &mut [Self::Code],
+    ) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_aos(v.len(), codes.len())?;
+        layout::encode(
+            Doubles::rows(v, Self::FORMAT.is_hemisphere()),
+            CodesMut::native(codes),
+            &mut Self::encode_columns,
+        );
+        Ok(())
+    }
+
+    /// [`encode_precise_f64`](Codec::encode_precise_f64) for arrays of structures of `N` doubles, of which the first three are
+    /// x, y and z. `N < 3` does not compile.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
+    fn encode_aos_f64_precise<const N: usize>(
+        v: &[[f64; N]],
+        codes: &mut [Self::Code],
+    ) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_aos(v.len(), codes.len())?;
+        layout::encode(
+            Doubles::rows(v, Self::FORMAT.is_hemisphere()),
+            CodesMut::native(codes),
+            &mut Self::encode_columns_precise,
+        );
+        Ok(())
+    }
+
+    /// [`encode_f64`](Codec::encode_f64) for vectors of three native doubles and codes, both at a stride, as
+    /// [`encode_strided`](Codec::encode_strided) takes them.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided_f64(v: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
+        layout::encode(v.doubles(Self::FORMAT.is_hemisphere())?, codes, &mut Self::encode_columns);
+        Ok(())
+    }
+
+    /// [`encode_precise_f64`](Codec::encode_precise_f64) for vectors of three native doubles and codes, both at a stride, as
+    /// [`encode_strided`](Codec::encode_strided) takes them.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
+    #[inline]
+    fn encode_strided_f64_precise(
+        v: Strided<'_>,
+        codes: StridedMut<'_>,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, codes.len)?;
+        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
+        layout::encode(
+            v.doubles(Self::FORMAT.is_hemisphere())?,
+            codes,
+            &mut Self::encode_columns_precise,
+        );
         Ok(())
     }
 

@@ -11,6 +11,7 @@ mod axes;
 mod code_operations;
 mod decode_table;
 mod dither;
+mod doubles;
 mod entry_points_agree;
 mod error_report;
 mod exhaustive;

@@ -78,6 +78,29 @@ fn strides() {
         }
     }
     line(format_args!("{:20} {:016x} {:016x}", "strides", encode.finish(), decode.finish()));
+    doubles();
+}
+
+/// One line for all formats: doubles that no float is, of any length.
+fn doubles() {
+    let (mut fast, mut precise) = (Digest::new(), Digest::new());
+    for &format in Format::ALL {
+        let size = format.code_size();
+        let single = format.visit(One).decode;
+        let mut random = Random::new();
+        let vectors: [[f64; 3]; LEN] = array::from_fn(|i| {
+            let length = f64::from_bits((1023 - 800 + 25 * i as u64) << 52);
+            let v = random.vector(size, format.bits(), single);
+            v.map(|c| f64::from(c) * (1.0 + 1.0 / 1_099_511_627_776.0) * length)
+        });
+        let mut codes = [0; CODE * LEN];
+        let codes = &mut codes[..size * LEN];
+        format.encode_aos_f64(&vectors, codes).expect("lengths that fit");
+        digest_codes(format, codes, &mut fast);
+        format.encode_aos_f64_precise(&vectors, codes).expect("lengths that fit");
+        digest_codes(format, codes, &mut precise);
+    }
+    line(format_args!("{:20} {:016x} {:016x}", "doubles", fast.finish(), precise.finish()));
 }
 
 /// A codec's functions of one vector, over the little-endian bytes of a code.
