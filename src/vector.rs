@@ -48,32 +48,19 @@ impl<'a> From<SoaMut<'a>> for VectorsMut<'a, 3> {
 /// stride.
 ///
 /// ```
-/// use core::mem::offset_of;
 /// use unitpack::{Codec, Oct32, Strided, StridedMut};
-///
-/// #[repr(C)]
-/// #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-/// struct Vertex {
-///     position: [f32; 3],
-///     normal: [f32; 3],
-///     uv: [f32; 2],
-/// }
-/// #[repr(C)]
-/// #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-/// struct GpuVertex {
-///     position: [u16; 4],
-///     normal: u32,
-/// }
-/// let vertex = Vertex { position: [5.0; 3], normal: [0.0, 0.0, 1.0], uv: [0.5; 2] };
-/// let vertices = [vertex; 100];
-/// let mut packed = [GpuVertex { position: [0; 4], normal: 7 }; 100];
-/// Oct32::encode_strided(
-///     Strided::of(&vertices, offset_of!(Vertex, normal)),
-///     StridedMut::of(&mut packed, offset_of!(GpuVertex, normal)),
-/// )?;
-/// assert_eq!(Oct32::decode(packed[99].normal), [0.0, 0.0, 1.0]);
+/// // Position, normal and uv: the normal begins at byte 12.
+/// let vertices = [[5.0f32, 5.0, 5.0, 0.0, 0.0, 1.0, 0.5, 0.5]; 100];
+/// // Position, normal and uv of the GPU: the normal begins at byte 8.
+/// let mut packed = [[7u32; 4]; 100];
+/// Oct32::encode_strided(Strided::of(&vertices, 12), StridedMut::of(&mut packed, 8))?;
+/// assert_eq!(Oct32::decode(packed[99][2]), [0.0, 0.0, 1.0]);
+/// assert_eq!(packed[99][3], 7);
 /// # Ok::<(), unitpack::StrideMismatch>(())
 /// ```
+///
+/// Vertices are often structures. With `bytemuck`'s derives `Pod` and `Zeroable` they are
+/// `Strided::of(&vertices, offset_of!(Vertex, normal))`.
 #[derive(Clone, Copy, Debug)]
 pub struct Strided<'a> {
     /// All bytes, those between the elements too.

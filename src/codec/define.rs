@@ -42,7 +42,7 @@ macro_rules! precise_axes {
 macro_rules! define_codecs {
     ($(
         #[cfg(feature = $feature:literal)]
-        $family:literal, mirrors $mirrors:tt {$(
+        $family:literal, mirrors $mirrors:tt, $stable:ident {$(
             $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
                 exact $axes:tt $(/ $axes_precise:tt)?,
                 $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
@@ -53,7 +53,8 @@ macro_rules! define_codecs {
             #[doc = concat!("`", $text, "`: ", $bits, " bits in a `", stringify!($code), "`.")]
             #[doc = ""]
             #[doc = concat!(
-                "Maximum error: ", $fast, "° with `encode`, ", $precise, "° with `encode_precise`."
+                "Maximum error: ", $fast, "° with `encode`, ", $precise, "° with `encode_precise`. ",
+                stable_text!($stable)
             )]
             #[doc = ""]
             #[doc = $family]
@@ -211,6 +212,14 @@ macro_rules! define_codecs {
                 match self {$($(#[cfg(feature = $feature)] Format::$name => $mirrors,)*)*}
             }
 
+            /// Whether `encode(decode(code))` is `code` for every canonical code, so that decoding a buffer and encoding
+            /// it again keeps its bytes. For the other formats [`encode_precise`](Codec::encode_precise) does that: see
+            /// the [promises](crate#promises).
+            #[inline]
+            pub const fn encode_is_stable(self) -> bool {
+                match self {$($(#[cfg(feature = $feature)] Format::$name => is_stable!($stable),)*)*}
+            }
+
             /// Calls `v` with the type of this codec.
             ///
             /// What `v` does is compiled for each of the codecs. [`encode`](Format::encode) and the like are
@@ -248,6 +257,26 @@ macro_rules! axes_text {
     };
     ($axes:tt) => {
         $axes
+    };
+}
+
+/// Whether a family is stable.
+macro_rules! is_stable {
+    (stable) => {
+        true
+    };
+    (unstable) => {
+        false
+    };
+}
+
+/// What a page says of encoding again.
+macro_rules! stable_text {
+    (stable) => {
+        "Codes that are decoded and encoded again stay."
+    };
+    (unstable) => {
+        "Codes that are decoded and encoded again stay with `encode_precise`, but can change with `encode`."
     };
 }
 

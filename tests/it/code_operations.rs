@@ -159,6 +159,21 @@ fn images_are_where_the_oracle_has_them() {
     });
 }
 
+/// That all others keep every code is checked where all codes are.
+#[test]
+fn formats_that_are_not_stable_have_codes_that_change() {
+    let formats: Vec<_> = Format::ALL.iter().copied().filter(|f| !f.encode_is_stable()).collect();
+    assert!(formats.len() > 20);
+    check_all(&formats, |&format| {
+        let codec = AnyCodec::of(format);
+        let changes = random_codes(format, 5, 20_000).into_iter().any(|code| {
+            let code = (codec.canonical)(code);
+            (codec.encode)((codec.decode)(code)) != code
+        });
+        if changes { Ok(()) } else { Err(format!("{format}: encode keeps all of the codes")) }
+    });
+}
+
 /// Signs are flipped, whatever they are signs of.
 #[test]
 fn floats_keep_all_other_bits() {

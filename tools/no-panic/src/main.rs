@@ -172,7 +172,7 @@ fn format(format: Format) {
     black_box((Format::is_hemisphere(format), Format::max_error_degrees(format)));
     black_box(Format::max_error_precise_degrees(format));
     black_box((Format::exact_axes(format), Format::exact_axes_precise(format)));
-    black_box(Format::exact_mirrors(format));
+    black_box((Format::exact_mirrors(format), Format::encode_is_stable(format)));
     black_box(Format::cheapest(black_box(0.5)));
     black_box(Format::from_name(black_box("oct16")));
     match <Format as FromStr>::from_str(black_box("oct16")) {
