@@ -222,10 +222,19 @@ pub enum StrideMismatch {
     /// The number of normals, of tangents, and of codes.
     #[allow(missing_docs)]
     Frames { normals: usize, tangents: usize, codes: usize },
-    /// In place: from the first byte of vector and code to the last of them are `span` bytes, more than the stride, so that
-    /// an element's code would lie in another element.
+    /// In place: `len` vectors of `vector_size` bytes from byte `vector` on and codes of `code_size` bytes from byte `code`
+    /// on, both `stride` bytes apart, end beyond the `bytes` that there are; or a vector and its code do not lie within one
+    /// stride, so that a code would lie in another element.
     #[allow(missing_docs)]
-    Span { stride: usize, span: usize },
+    Within {
+        vector: usize,
+        vector_size: usize,
+        code: usize,
+        code_size: usize,
+        stride: usize,
+        len: usize,
+        bytes: usize,
+    },
 }
 
 impl StrideMismatch {
@@ -258,10 +267,13 @@ impl fmt::Display for StrideMismatch {
             StrideMismatch::Frames { normals, tangents, codes } => {
                 write!(f, "lengths differ: normals {normals}, tangents {tangents}, codes {codes}")
             }
-            StrideMismatch::Span { stride, span } => write!(
-                f,
-                "a vector and its code span {span} bytes, more than the stride of {stride}"
-            ),
+            StrideMismatch::Within { vector, vector_size, code, code_size, stride, len, bytes } => {
+                write!(
+                    f,
+                    "{len} vectors of {vector_size} bytes from byte {vector} on, and codes of {code_size} \
+                     from byte {code} on, do not lie within each {stride} bytes of {bytes}"
+                )
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use bytemuck::{AnyBitPattern, NoUninit};
 
-use crate::batch::doubles::Doubles;
+use crate::batch::doubles::{Doubles, Keeps};
 use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut, Within};
 use crate::error::StrideMismatch;
 
@@ -67,7 +67,7 @@ pub struct Strided<'a> {
     pub bytes: &'a [u8],
     /// Where the first element begins.
     pub offset: usize,
-    /// Bytes from one element to the next, at least those of an element.
+    /// Bytes from one element to the next, at least those of an element: 12 for tight vectors, not 0.
     pub stride: usize,
     /// Number of elements.
     pub len: usize,
@@ -80,7 +80,7 @@ pub struct StridedMut<'a> {
     pub bytes: &'a mut [u8],
     /// Where the first element begins.
     pub offset: usize,
-    /// Bytes from one element to the next, at least those of an element.
+    /// Bytes from one element to the next, at least those of an element: 12 for tight vectors, not 0.
     pub stride: usize,
     /// Number of elements.
     pub len: usize,
@@ -110,8 +110,8 @@ impl<'a> Strided<'a> {
 
     /// Vectors of three native doubles.
     #[inline]
-    pub(crate) fn doubles(self, hemisphere: bool) -> Result<Doubles<'a>, StrideMismatch> {
-        Ok(Doubles { bytes: self.elements(24)?, stride: self.stride, hemisphere })
+    pub(crate) fn doubles(self, keeps: Keeps) -> Result<Doubles<'a>, StrideMismatch> {
+        Ok(Doubles { bytes: self.elements(24)?, stride: self.stride, keeps })
     }
 
     #[inline]
@@ -160,11 +160,17 @@ impl<'a> StridedMut<'a> {
         let StridedMut { bytes, stride, len, .. } = self;
         let first = vector.min(code);
         let end = vector.saturating_add(4 * K).max(code.saturating_add(layout.size));
-        let span = end - first;
-        if stride < span {
-            return Err(StrideMismatch::Span { stride, span });
-        }
-        let range = range(bytes.len(), [first, stride, len, span])?;
+        let range = range(bytes.len(), [first, stride, len, end - first]).map_err(|_| {
+            StrideMismatch::Within {
+                vector,
+                vector_size: 4 * K,
+                code,
+                code_size: layout.size,
+                stride,
+                len,
+                bytes: bytes.len(),
+            }
+        })?;
         let bytes = bytes.get_mut(range).unwrap_or_default();
         Ok(Within { bytes, stride, vector: vector - first, code: code - first, layout })
     }
@@ -176,10 +182,10 @@ fn range(
     bytes: usize,
     [offset, stride, len, size]: [usize; 4],
 ) -> Result<Range<usize>, StrideMismatch> {
+    let Some(last) = len.checked_sub(1) else { return Ok(0..0) };
     if stride < size {
         return Err(StrideMismatch::Stride { stride, size });
     }
-    let Some(last) = len.checked_sub(1) else { return Ok(0..0) };
     let end = last.checked_mul(stride).and_then(|at| at.checked_add(offset)?.checked_add(size));
     match end {
         Some(end) if end <= bytes => Ok(offset..end),

@@ -36,7 +36,7 @@ impl Place {
     fn fits(self, size: usize, bytes: usize) -> bool {
         let [offset, stride, len, size, bytes] =
             [self.offset, self.stride, self.len, size, bytes].map(|n| n as u128);
-        stride >= size && (len == 0 || offset + (len - 1) * stride + size <= bytes)
+        len == 0 || stride >= size && (offset + (len - 1) * stride + size <= bytes)
     }
 
     fn read(self, bytes: &[u8]) -> Strided<'_> {

@@ -69,6 +69,8 @@ pub(crate) trait Read<'a>: Copy {
     type Buffer<const LEN: usize>: Default;
     /// Number of columns in the room.
     const COLUMNS: usize;
+    /// Size in bytes of an element in a row.
+    const SIZE: usize = 4 * Self::COLUMNS;
 
     /// Size in bytes of rows and what is between them; 0 if it consists of slices.
     fn row_bytes(&self) -> usize;
@@ -91,6 +93,8 @@ pub(crate) trait Write<'a>: Sized {
     type Buffer<const LEN: usize>: Default;
     /// Number of columns in the room.
     const COLUMNS: usize;
+    /// Size in bytes of an element in a row.
+    const SIZE: usize = 4 * Self::COLUMNS;
 
     /// Size in bytes of rows and what is between them; 0 if it consists of slices.
     fn row_bytes(&self) -> usize;
@@ -145,18 +149,18 @@ pub(crate) fn encode_in_parts<'a, R: Read<'a>, const S: usize>(
 ) {
     if codes.len() <= FEW {
         encode_parts::<R, S, FEW>(input, codes, kernel);
-    } else if is_far(input.row_bytes(), codes.len()) {
+    } else if is_far(input.row_bytes(), R::SIZE, codes.len()) {
         encode_parts::<R, S, FAR>(input, codes, kernel);
-    } else if const { R::COLUMNS + S <= 4 } {
-        encode_parts::<R, S, MANY>(input, codes, kernel);
-    } else {
+    } else if codes.len() <= PART || const { R::COLUMNS + S > 4 } {
         encode_parts::<R, S, PART>(input, codes, kernel);
+    } else {
+        encode_parts::<R, S, MANY>(input, codes, kernel);
     }
 }
 
-/// Whether rows of so many bytes are beyond the caches, and longer than what is read or written of them.
-fn is_far(row_bytes: usize, len: usize) -> bool {
-    row_bytes > 4 << 20 && row_bytes / 24 >= len
+/// Whether rows of so many bytes are beyond the caches, and at least twice what is read or written of them.
+fn is_far(row_bytes: usize, size: usize, len: usize) -> bool {
+    row_bytes > 4 << 20 && row_bytes / (2 * size).max(1) >= len
 }
 
 #[inline(never)]
@@ -231,12 +235,12 @@ pub(crate) fn decode_in_parts<'a, W: Write<'a>, const S: usize>(
 ) {
     if codes.len() <= FEW {
         decode_parts::<W, S, FEW>(codes, output, kernel);
-    } else if is_far(output.row_bytes(), codes.len()) {
+    } else if is_far(output.row_bytes(), W::SIZE, codes.len()) {
         decode_parts::<W, S, FAR>(codes, output, kernel);
-    } else if const { W::COLUMNS + S <= 4 } {
-        decode_parts::<W, S, MANY>(codes, output, kernel);
-    } else {
+    } else if codes.len() <= PART || const { W::COLUMNS + S > 4 } {
         decode_parts::<W, S, PART>(codes, output, kernel);
+    } else {
+        decode_parts::<W, S, MANY>(codes, output, kernel);
     }
 }
 

@@ -3,6 +3,7 @@
 use super::format::Visitor;
 use super::sealed::Batch;
 use super::{Axis, Codec, codec_table};
+use crate::batch::doubles::Keeps;
 use crate::batch::storage::{CodeSlice, CodeSliceMut, from_native, to_native};
 use crate::formula::names::*;
 use crate::formula::{Formula, Kernels, Source, kernels};
@@ -227,6 +228,22 @@ macro_rules! define_codecs {
             #[inline]
             pub fn visit<V: Visitor>(self, v: V) -> V::Output {
                 match self {$($(#[cfg(feature = $feature)] Format::$name => v.visit::<$name>(),)*)*}
+            }
+
+            /// What it has of a vector of doubles.
+            #[inline]
+            pub(crate) const fn keeps(self) -> Keeps {
+                match self {$($(
+                    #[cfg(feature = $feature)]
+                    Format::$name => match (
+                        <$formula $(<$($kind),+>)? as Formula>::KEEPS_LENGTH,
+                        <$formula $(<$($kind),+>)? as Formula>::HEMISPHERE,
+                    ) {
+                        (true, _) => Keeps::Floats,
+                        (_, true) => Keeps::UpperDirection,
+                        _ => Keeps::Direction,
+                    },
+                )*)*}
             }
 
             pub(super) fn encode_columns(self, v: [&[f32]; 3], codes: CodeSliceMut<'_>) {

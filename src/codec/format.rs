@@ -212,10 +212,7 @@ impl Format {
     ) -> Result<(), LengthMismatch> {
         let size = self.code_size();
         LengthMismatch::check_aos_bytes(v.len(), bytes.len(), size)?;
-        self.encode_doubles(
-            Doubles::rows(v, self.is_hemisphere()),
-            CodesMut::little_endian(bytes, size),
-        );
+        self.encode_doubles(Doubles::rows(v, self.keeps()), CodesMut::little_endian(bytes, size));
         Ok(())
     }
 
@@ -233,7 +230,7 @@ impl Format {
         let size = self.code_size();
         LengthMismatch::check_aos_bytes(v.len(), bytes.len(), size)?;
         self.encode_doubles_precise(
-            Doubles::rows(v, self.is_hemisphere()),
+            Doubles::rows(v, self.keeps()),
             CodesMut::little_endian(bytes, size),
         );
         Ok(())
@@ -249,7 +246,7 @@ impl Format {
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
         StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode_doubles(v.doubles(self.is_hemisphere())?, codes.codes(self.layout())?);
+        self.encode_doubles(v.doubles(self.keeps())?, codes.codes(self.layout())?);
         Ok(())
     }
 
@@ -263,7 +260,7 @@ impl Format {
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
         StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode_doubles_precise(v.doubles(self.is_hemisphere())?, codes.codes(self.layout())?);
+        self.encode_doubles_precise(v.doubles(self.keeps())?, codes.codes(self.layout())?);
         Ok(())
     }
 

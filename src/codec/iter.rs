@@ -10,7 +10,7 @@ use super::Codec;
 use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
 
 /// Elements taken from an iterator at a time.
-const BLOCK: usize = 64;
+const BLOCK: usize = 256;
 
 /// Elements of which some are yet to be given out.
 #[derive(Clone)]
@@ -25,10 +25,18 @@ impl<T: Copy> Block<T> {
         Block { elements: [empty; BLOCK], next: 0, len: 0 }
     }
 
+    #[inline]
     fn left(&self) -> usize {
         self.len - self.next
     }
 
+    /// What is yet to be given out.
+    #[inline]
+    fn rest(&self) -> &[T] {
+        self.elements.get(self.next..self.len).unwrap_or_default()
+    }
+
+    #[inline]
     fn next(&mut self) -> Option<T> {
         let element = self.elements.get(..self.len)?.get(self.next).copied()?;
         self.next += 1;
@@ -73,18 +81,39 @@ impl<C: Codec, I: Iterator> EncodeIter<C, I> {
     }
 }
 
+impl<C: Codec, I: Iterator<Item: Into<[f32; 3]>>> EncodeIter<C, I> {
+    /// Returns how many codes there are now.
+    #[inline(never)]
+    fn refill(&mut self) -> usize {
+        let mut vectors = [[0.0; 3]; BLOCK];
+        let len = take(&mut self.vectors.by_ref().map(Into::into), &mut vectors);
+        let vectors = vectors.get(..len).unwrap_or_default();
+        let encode = self.encode;
+        self.codes.refill(len, |codes| encode(Vectors::rows(vectors), CodesMut::native(codes)));
+        len
+    }
+}
+
 impl<C: Codec, I: Iterator<Item: Into<[f32; 3]>>> Iterator for EncodeIter<C, I> {
     type Item = C::Code;
 
+    #[inline]
     fn next(&mut self) -> Option<C::Code> {
         if self.codes.left() == 0 {
-            let mut vectors = [[0.0; 3]; BLOCK];
-            let len = take(&mut self.vectors.by_ref().map(Into::into), &mut vectors);
-            let vectors = vectors.get(..len).unwrap_or_default();
-            let encode = self.encode;
-            self.codes.refill(len, |codes| encode(Vectors::rows(vectors), CodesMut::native(codes)));
+            self.refill();
         }
         self.codes.next()
+    }
+
+    /// A block at a time, as `for_each` and `collect` of many take it.
+    #[inline]
+    fn fold<B, F: FnMut(B, C::Code) -> B>(mut self, mut result: B, mut f: F) -> B {
+        loop {
+            result = self.codes.rest().iter().copied().fold(result, &mut f);
+            if self.refill() == 0 {
+                return result;
+            }
+        }
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
@@ -127,19 +156,39 @@ impl<C: Codec, I: Iterator<Item = C::Code>> DecodeIter<C, I> {
     }
 }
 
+impl<C: Codec, I: Iterator<Item = C::Code>> DecodeIter<C, I> {
+    /// Returns how many vectors there are now.
+    #[inline(never)]
+    fn refill(&mut self) -> usize {
+        let mut codes = [C::Code::zeroed(); BLOCK];
+        let len = take(&mut self.codes, &mut codes);
+        let codes = codes.get(..len).unwrap_or_default();
+        let decode = self.decode;
+        self.vectors.refill(len, |vectors| decode(Codes::native(codes), VectorsMut::rows(vectors)));
+        len
+    }
+}
+
 impl<C: Codec, I: Iterator<Item = C::Code>> Iterator for DecodeIter<C, I> {
     type Item = [f32; 3];
 
+    #[inline]
     fn next(&mut self) -> Option<[f32; 3]> {
         if self.vectors.left() == 0 {
-            let mut codes = [C::Code::zeroed(); BLOCK];
-            let len = take(&mut self.codes, &mut codes);
-            let codes = codes.get(..len).unwrap_or_default();
-            let decode = self.decode;
-            self.vectors
-                .refill(len, |vectors| decode(Codes::native(codes), VectorsMut::rows(vectors)));
+            self.refill();
         }
         self.vectors.next()
+    }
+
+    /// A block at a time, as `for_each` and `collect` of many take it.
+    #[inline]
+    fn fold<B, F: FnMut(B, [f32; 3]) -> B>(mut self, mut result: B, mut f: F) -> B {
+        loop {
+            result = self.vectors.rest().iter().copied().fold(result, &mut f);
+            if self.refill() == 0 {
+                return result;
+            }
+        }
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {

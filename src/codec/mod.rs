@@ -306,7 +306,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     }
 
     /// [`encode`](Codec::encode) for doubles of any length: of the direction they have, not of what they would be as `f32`,
-    /// where 1e40 is infinite.
+    /// where 1e40 is infinite. `Float32x3`, which keeps lengths, takes what they are as `f32`.
     ///
     /// ```
     /// use unitpack::{Codec, Oct32};
@@ -314,13 +314,13 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// ```
     #[inline]
     fn encode_f64(v: [f64; 3]) -> Self::Code {
-        Self::encode(to_f32(v, Self::FORMAT.is_hemisphere()))
+        Self::encode(to_f32(v, Self::FORMAT.keeps()))
     }
 
     /// [`encode_precise`](Codec::encode_precise) for doubles, as [`encode_f64`](Codec::encode_f64) takes them.
     #[inline]
     fn encode_precise_f64(v: [f64; 3]) -> Self::Code {
-        Self::encode_precise(to_f32(v, Self::FORMAT.is_hemisphere()))
+        Self::encode_precise(to_f32(v, Self::FORMAT.keeps()))
     }
 
     /// [`encode_f64`](Codec::encode_f64) for arrays of structures of `N` doubles, of which the first three are x, y and z.
@@ -335,7 +335,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     ) -> Result<(), LengthMismatch> {
         LengthMismatch::check_aos(v.len(), codes.len())?;
         layout::encode(
-            Doubles::rows(v, Self::FORMAT.is_hemisphere()),
+            Doubles::rows(v, Self::FORMAT.keeps()),
             CodesMut::native(codes),
             &mut Self::encode_columns,
         );
@@ -354,7 +354,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     ) -> Result<(), LengthMismatch> {
         LengthMismatch::check_aos(v.len(), codes.len())?;
         layout::encode(
-            Doubles::rows(v, Self::FORMAT.is_hemisphere()),
+            Doubles::rows(v, Self::FORMAT.keeps()),
             CodesMut::native(codes),
             &mut Self::encode_columns_precise,
         );
@@ -370,7 +370,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     fn encode_strided_f64(v: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
         StrideMismatch::check_lengths(v.len, codes.len)?;
         let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
-        layout::encode(v.doubles(Self::FORMAT.is_hemisphere())?, codes, &mut Self::encode_columns);
+        layout::encode(v.doubles(Self::FORMAT.keeps())?, codes, &mut Self::encode_columns);
         Ok(())
     }
 
@@ -386,11 +386,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     ) -> Result<(), StrideMismatch> {
         StrideMismatch::check_lengths(v.len, codes.len)?;
         let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
-        layout::encode(
-            v.doubles(Self::FORMAT.is_hemisphere())?,
-            codes,
-            &mut Self::encode_columns_precise,
-        );
+        layout::encode(v.doubles(Self::FORMAT.keeps())?, codes, &mut Self::encode_columns_precise);
         Ok(())
     }
 

@@ -50,6 +50,8 @@ pub(crate) trait Formula: Copy + Send + Sync + 'static {
     type Shape: CodeShape;
     /// Whether only z >= 0 is represented. z < 0 is then taken as 0.
     const HEMISPHERE: bool = false;
+    /// Whether codes are the vectors as they are, of any length.
+    const KEEPS_LENGTH: bool = false;
     /// How much `encode_precise` of many vectors is used.
     const PRECISE_USE: Use = Use::Sometimes;
     /// Whether `encode` is `encode_precise`.

@@ -39,8 +39,15 @@ fn floats_and_their_multiples_are_what_they_are_as_f32() {
         }
         Ok(())
     });
-    // It keeps lengths.
-    assert_eq!(Float32x3::encode_f64([0.5, 3.0, -2.0]), Float32x3::encode([0.5, 3.0, -2.0]));
+    // It keeps lengths, and what is no direction.
+    for v in special_vectors().into_iter().chain(mixed_vectors(3, 1000)) {
+        let mut code = [[0; 3]];
+        Float32x3::encode_aos_f64(&[v.map(f64::from)], &mut code).unwrap();
+        let kept = [Float32x3::encode_f64(v.map(f64::from)), code[0]];
+        if v.iter().all(|c| !c.is_nan()) {
+            assert_eq!(kept, [Float32x3::encode(v); 2], "{v:?}");
+        }
+    }
 }
 
 /// Doubles that no `f32` is, of any length.

@@ -444,7 +444,9 @@ fn what_does_not_fit_is_refused_and_nothing_written() {
     assert_eq!(Oct16::encode_strided(read(88, usize::MAX, 1), one), Ok(()));
     let one = StridedMut { bytes: &mut [7; 16], offset: 0, stride: usize::MAX, len: 1 };
     assert_eq!(Oct16::encode_within(one, 13), Ok(()));
-    // No elements lie anywhere.
+    // No elements lie anywhere, at any stride.
+    let none = StridedMut { bytes: &mut [], offset: 0, stride: 0, len: 0 };
+    assert_eq!(Oct16::encode_strided(read(0, 0, 0), none), Ok(()));
     let none = StridedMut { bytes: &mut [], offset: 12, stride: 32, len: 0 };
     assert_eq!(Oct16::encode_strided(read(200, 12, 0), none), Ok(()));
 
@@ -454,15 +456,39 @@ fn what_does_not_fit_is_refused_and_nothing_written() {
     }
     assert_eq!(
         Oct32::encode_within(within(&mut bytes, 15, 2), 12),
-        Err(StrideMismatch::Span { stride: 15, span: 16 })
+        Err(StrideMismatch::Within {
+            vector: 0,
+            vector_size: 12,
+            code: 12,
+            code_size: 4,
+            stride: 15,
+            len: 2,
+            bytes: 40
+        })
     );
     assert_eq!(
         Oct32::decode_within(within(&mut bytes, 20, 2), usize::MAX - 3),
-        Err(StrideMismatch::Span { stride: 20, span: usize::MAX })
+        Err(StrideMismatch::Within {
+            vector: usize::MAX - 3,
+            vector_size: 12,
+            code: 0,
+            code_size: 4,
+            stride: 20,
+            len: 2,
+            bytes: 40
+        })
     );
     assert_eq!(
         Oct32::encode_within(within(&mut bytes, 16, 3), 12),
-        Err(StrideMismatch::Bounds { offset: 0, stride: 16, len: 3, size: 16, bytes: 40 })
+        Err(StrideMismatch::Within {
+            vector: 0,
+            vector_size: 12,
+            code: 12,
+            code_size: 4,
+            stride: 16,
+            len: 3,
+            bytes: 40
+        })
     );
     assert_eq!(bytes, [7; 40]);
     assert_eq!(

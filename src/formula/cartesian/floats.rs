@@ -17,6 +17,7 @@ impl Floats {
 
 impl Formula for Floats {
     type Shape = Words3;
+    const KEEPS_LENGTH: bool = true;
     const ONE_ENCODER: bool = true;
 
     #[inline(always)]

@@ -214,7 +214,15 @@ fn errors() {
         StrideMismatch::Stride { stride: a, size: b },
         StrideMismatch::Lengths { vectors: a, codes: b },
         StrideMismatch::Frames { normals: a, tangents: b, codes: c },
-        StrideMismatch::Span { stride: a, span: b },
+        StrideMismatch::Within {
+            vector: a,
+            vector_size: b,
+            code: c,
+            code_size: d,
+            stride: a,
+            len: b,
+            bytes: c,
+        },
     ]) {
         display::<StrideMismatch>(error);
         derived::<StrideMismatch>(error);
