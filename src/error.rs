@@ -222,15 +222,14 @@ pub enum StrideMismatch {
     /// The number of normals, of tangents, and of codes.
     #[allow(missing_docs)]
     Frames { normals: usize, tangents: usize, codes: usize },
-    /// In place: `len` vectors of `vector_size` bytes from byte `vector` on and codes of `code_size` bytes from byte `code`
-    /// on, both `stride` bytes apart, end beyond the `bytes` that there are; or a vector and its code do not lie within one
-    /// stride, so that a code would lie in another element.
+    /// Two fields of each of `len` elements, which begin at the bytes `first` and `second`: they end beyond the `bytes` that
+    /// there are, or do not lie within one stride, so that one would lie in another element.
     #[allow(missing_docs)]
-    Within {
-        vector: usize,
-        vector_size: usize,
-        code: usize,
-        code_size: usize,
+    Fields {
+        first: usize,
+        first_size: usize,
+        second: usize,
+        second_size: usize,
         stride: usize,
         len: usize,
         bytes: usize,
@@ -267,13 +266,19 @@ impl fmt::Display for StrideMismatch {
             StrideMismatch::Frames { normals, tangents, codes } => {
                 write!(f, "lengths differ: normals {normals}, tangents {tangents}, codes {codes}")
             }
-            StrideMismatch::Within { vector, vector_size, code, code_size, stride, len, bytes } => {
-                write!(
-                    f,
-                    "{len} vectors of {vector_size} bytes from byte {vector} on, and codes of {code_size} \
-                     from byte {code} on, do not lie within each {stride} bytes of {bytes}"
-                )
-            }
+            StrideMismatch::Fields {
+                first,
+                first_size,
+                second,
+                second_size,
+                stride,
+                len,
+                bytes,
+            } => write!(
+                f,
+                "{len} elements with {first_size} bytes from byte {first} on and {second_size} from \
+                 byte {second} on, {stride} bytes apart, do not lie in {bytes} bytes, each within a stride"
+            ),
         }
     }
 }

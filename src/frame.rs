@@ -63,7 +63,7 @@
 //! Basis, Revisited", 2017; Kapoulkine, "Quantizing tangent frames", 2026; Frey and Herzeg, "Spherical
 //! Skinning with Dual-Quaternions and QTangents", 2011. The angle in place of a diamond is unitpack's.
 
-use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::layout::{CodeLayout, Codes, CodesMut, PairMut, Vectors, VectorsMut};
 use crate::batch::storage::{from_native, to_native};
 use crate::codec::Format;
 use crate::error::{LengthMismatch, StrideMismatch};
@@ -355,6 +355,35 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         Self::decode_batch(codes, (normals.vectors()?, tangents.vectors()?));
         Ok(())
     }
+
+    /// [`decode_strided`](FrameCodec::decode_strided) to vertices that hold both: normals as `normals` has them, and tangents
+    /// from `tangent_offset` on in the same bytes, with the same stride.
+    ///
+    /// ```
+    /// use unitpack::frame::{FrameCodec, OctAngle32};
+    /// use unitpack::{Strided, StridedMut};
+    /// // Position, normal and tangent.
+    /// let mut vertices = [[9.0f32; 10]; 5];
+    /// let codes = [0u32; 5];
+    /// OctAngle32::decode_vertices(Strided::of(&codes, 0), StridedMut::of(&mut vertices, 12), 24)?;
+    /// assert_eq!(vertices[4], [9.0, 9.0, 9.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]);
+    /// # Ok::<(), unitpack::StrideMismatch>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, their numbers differ, or normal and tangent together are
+    /// longer than the stride; nothing is written then.
+    #[inline]
+    fn decode_vertices(
+        codes: Strided<'_>,
+        normals: StridedMut<'_>,
+        tangent_offset: usize,
+    ) -> Result<(), StrideMismatch> {
+        StrideMismatch::check_lengths(normals.len, codes.len)?;
+        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
+        Self::decode_pairs(codes, normals.pair(tangent_offset)?);
+        Ok(())
+    }
 }
 
 /// Defines the types and their `FrameCodec`.
@@ -428,7 +457,11 @@ macro_rules! frame_codecs {
                 }
                 #[inline(never)]
                 fn decode_batch(codes: Codes<'_>, frames: (VectorsMut<'_, 3>, VectorsMut<'_, 4>)) {
-                    kernels::decode::<_, { size_of::<$code>() }>(FORMULA, codes, frames);
+                    kernels::decode::<_, _, { size_of::<$code>() }>(FORMULA, codes, frames);
+                }
+                #[inline(never)]
+                fn decode_pairs(codes: Codes<'_>, frames: PairMut<'_>) {
+                    kernels::decode::<_, _, { size_of::<$code>() }>(FORMULA, codes, frames);
                 }
             }
         };

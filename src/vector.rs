@@ -5,7 +5,7 @@ use core::ops::Range;
 use bytemuck::{AnyBitPattern, NoUninit};
 
 use crate::batch::doubles::{Doubles, Keeps};
-use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut, Within};
+use crate::batch::layout::{CodeLayout, Codes, CodesMut, PairMut, Vectors, VectorsMut, Within};
 use crate::error::StrideMismatch;
 
 /// Vectors to read, as a structure of arrays. All three slices have one element per vector.
@@ -157,22 +157,41 @@ impl<'a> StridedMut<'a> {
         code: usize,
         layout: CodeLayout,
     ) -> Result<Within<'a>, StrideMismatch> {
+        let stride = self.stride;
+        let (bytes, [vector, code]) = self.fields([vector, 4 * K], [code, layout.size])?;
+        Ok(Within { bytes, stride, vector, code, layout })
+    }
+
+    /// Elements with normals of three floats at `offset`, and tangents of four at `tangent`.
+    #[inline]
+    pub(crate) fn pair(self, tangent: usize) -> Result<PairMut<'a>, StrideMismatch> {
+        let (stride, normal) = (self.stride, self.offset);
+        let (bytes, at) = self.fields([normal, 12], [tangent, 16])?;
+        Ok(PairMut { bytes, stride, at })
+    }
+
+    /// From the first byte of the first element's two fields to the last byte of the last's, and where in an element they are. A
+    /// field is where it begins and its size.
+    fn fields(
+        self,
+        [first, first_size]: [usize; 2],
+        [second, second_size]: [usize; 2],
+    ) -> Result<(&'a mut [u8], [usize; 2]), StrideMismatch> {
         let StridedMut { bytes, stride, len, .. } = self;
-        let first = vector.min(code);
-        let end = vector.saturating_add(4 * K).max(code.saturating_add(layout.size));
-        let range = range(bytes.len(), [first, stride, len, end - first]).map_err(|_| {
-            StrideMismatch::Within {
-                vector,
-                vector_size: 4 * K,
-                code,
-                code_size: layout.size,
+        let start = first.min(second);
+        let end = first.saturating_add(first_size).max(second.saturating_add(second_size));
+        let size = bytes.len();
+        let range =
+            range(size, [start, stride, len, end - start]).map_err(|_| StrideMismatch::Fields {
+                first,
+                first_size,
+                second,
+                second_size,
                 stride,
                 len,
-                bytes: bytes.len(),
-            }
-        })?;
-        let bytes = bytes.get_mut(range).unwrap_or_default();
-        Ok(Within { bytes, stride, vector: vector - first, code: code - first, layout })
+                bytes: size,
+            })?;
+        Ok((bytes.get_mut(range).unwrap_or_default(), [first - start, second - start]))
     }
 }
 

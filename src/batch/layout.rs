@@ -571,6 +571,61 @@ impl<'a, A: Write<'a>, B: Write<'a>> Write<'a> for (A, B) {
     }
 }
 
+/// Elements that hold a vector of three and one of four, to be written together.
+pub struct PairMut<'a> {
+    /// From the first byte of the first element to the last byte of the last.
+    pub(crate) bytes: &'a mut [u8],
+    pub(crate) stride: usize,
+    /// Where in an element each of them begins.
+    pub(crate) at: [usize; 2],
+}
+
+impl<'a> Write<'a> for PairMut<'a> {
+    type Kind = (Columns<3>, Columns<4>);
+    type Buffer<const LEN: usize> = (Option<[[f32; LEN]; 3]>, Option<[[f32; LEN]; 4]>);
+    const COLUMNS: usize = 7;
+
+    fn row_bytes(&self) -> usize {
+        self.bytes.len()
+    }
+    #[inline]
+    fn is_direct(&self) -> bool {
+        false
+    }
+    #[inline]
+    fn direct(self) -> Option<OutputSlices<'a, Self::Kind>> {
+        None
+    }
+    fn size_and_unaligned(_: &OutputSlices<'a, Self::Kind>) -> (usize, usize) {
+        (0, 0)
+    }
+    fn split_at(self, len: usize) -> (Self, Self) {
+        let PairMut { bytes, stride, at } = self;
+        let (first, others) = bytes.split_at_mut(len.saturating_mul(stride).min(bytes.len()));
+        (PairMut { bytes: first, stride, at }, PairMut { bytes: others, stride, at })
+    }
+    fn slices<'b, const LEN: usize>(
+        &'b mut self,
+        len: usize,
+        (a, b): &'b mut Self::Buffer<LEN>,
+    ) -> Option<OutputSlices<'b, Self::Kind>> {
+        Some((
+            columns_mut(a.get_or_insert([[0.0; LEN]; 3]), len)?,
+            columns_mut(b.get_or_insert([[0.0; LEN]; 4]), len)?,
+        ))
+    }
+    fn take<const LEN: usize>(self, (a, b): &Self::Buffer<LEN>) {
+        let PairMut { bytes, stride, at: [first, second] } = self;
+        let len = bytes.len().div_ceil(stride.max(1));
+        if let (Some(a), Some(to)) = (a, bytes.get_mut(first..)) {
+            scatter(columns(a, len), to, stride);
+        }
+        if let (Some(b), Some(to)) = (b, bytes.get_mut(second..)) {
+            scatter(columns(b, len), to, stride);
+        }
+    }
+}
+
 /// The first `len` elements of each column.
 pub(super) fn columns<const K: usize, const PART: usize>(
     buffer: &[[f32; PART]; K],

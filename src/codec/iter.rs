@@ -7,10 +7,10 @@ use core::marker::PhantomData;
 use bytemuck::Zeroable;
 
 use super::Codec;
-use crate::batch::layout::{Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::layout::{Codes, CodesMut, PART, Vectors, VectorsMut};
 
 /// Elements taken from an iterator at a time.
-const BLOCK: usize = 256;
+const BLOCK: usize = PART;
 
 /// Elements of which some are yet to be given out.
 #[derive(Clone)]

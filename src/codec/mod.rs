@@ -391,7 +391,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     }
 
     /// [`encode`](Codec::encode) for what an iterator gives, as anything that becomes `[f32; 3]`: the vectors of `glam`,
-    /// `nalgebra` and `mint` do. It takes 64 at a time from the iterator, so that lanes are used.
+    /// `nalgebra` and `mint` do. It takes up to 256 at a time from the iterator, so that lanes are used.
     ///
     /// ```
     /// use unitpack::{Codec, Oct16};
@@ -412,7 +412,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
         EncodeIter::new(v.into_iter(), Self::encode_batch_precise)
     }
 
-    /// [`decode`](Codec::decode) for codes that an iterator gives. It takes 64 at a time from it.
+    /// [`decode`](Codec::decode) for codes that an iterator gives. It takes up to 256 at a time from it.
     #[inline]
     fn decode_iter<I: IntoIterator<Item = Self::Code>>(codes: I) -> DecodeIter<Self, I::IntoIter> {
         DecodeIter::new(codes.into_iter(), Self::decode_batch)

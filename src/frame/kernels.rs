@@ -1,9 +1,10 @@
 //! The kernels of frame codecs, in any layout.
 
-use crate::batch::columns::{CodeColumn, Columns};
-use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::CodeIn;
+use crate::batch::columns::{CodeColumn, Columns, Output};
+use crate::batch::layout::{self, Codes, CodesMut, PairMut, Vectors, VectorsMut, Write};
+use crate::batch::storage::{CodeIn, CodeSlice};
 use crate::batch::{Kernel, map, run};
+use crate::simd::stream::Fence;
 use crate::simd::{Simd, Use, Vec3};
 
 use super::Skew;
@@ -18,6 +19,8 @@ pub trait FrameKernels {
     fn encode_batch_precise(frames: (Vectors<'_, 3>, Vectors<'_, 4>), codes: CodesMut<'_>) -> Skew;
     /// [`FrameCodec::decode_soa`](super::FrameCodec::decode_soa) and the like.
     fn decode_batch(codes: Codes<'_>, frames: (VectorsMut<'_, 3>, VectorsMut<'_, 4>));
+    /// [`FrameCodec::decode_vertices`](super::FrameCodec::decode_vertices).
+    fn decode_pairs(codes: Codes<'_>, frames: PairMut<'_>);
 }
 
 /// [`FrameFormula::encode`], and the squared sines of the skew.
@@ -28,7 +31,7 @@ struct Encode<F, const PRECISE: bool>(F);
 struct Decode<F>(F);
 
 /// Normals and tangents.
-type Frames = (Columns<3>, Columns<4>);
+pub(super) type Frames = (Columns<3>, Columns<4>);
 
 impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
     Kernel<Frames, (CodeColumn<B>, Columns<1>)> for Encode<F, PRECISE>
@@ -104,15 +107,27 @@ where
     Skew { degrees: skew_degrees(worst.sin_squared), index: worst.index }
 }
 
+#[inline(never)]
+fn decode_columns<F: FrameFormula, const N: usize>(
+    formula: F,
+    codes: CodeSlice<'_>,
+    frames: <Frames as Output>::Slices<'_>,
+    fence: &Fence,
+) where
+    [u8; N]: FrameBytes,
+{
+    run::<CodeColumn<[u8; N]>, Frames>(Decode(formula), codes, frames, fence);
+}
+
 #[inline(always)]
-pub(super) fn decode<F: FrameFormula, const N: usize>(
+pub(super) fn decode<'a, F: FrameFormula, W: Write<'a, Kind = Frames>, const N: usize>(
     formula: F,
     codes: Codes<'_>,
-    frames: (VectorsMut<'_, 3>, VectorsMut<'_, 4>),
+    frames: W,
 ) where
     [u8; N]: FrameBytes,
 {
     layout::decode(codes, frames, &mut |codes, frames, fence| {
-        run::<CodeColumn<[u8; N]>, Frames>(Decode(formula), codes, frames, fence);
+        decode_columns::<F, N>(formula, codes, frames, fence);
     });
 }

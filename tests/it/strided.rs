@@ -397,6 +397,22 @@ fn rotations_and_frames_have_strides() {
                 .collect();
             assert_eq!(normals_out, n.holding(&normals));
             assert_eq!(tangents_out, t.holding(&tangents));
+
+            // Both in one buffer, tangents before and behind normals.
+            for (normal, tangent, stride) in [(3, 15, 28), (20, 1, 35)] {
+                let [n, t] = [normal, tangent].map(|offset| Place { offset, stride, len });
+                let size = (n.offset + 12).max(t.offset + 16);
+                let end = len.checked_sub(1).map_or(0, |last| last * stride + size);
+                let mut out = vec![FILL; end];
+                let mut wanted = out.clone();
+                for i in 0..len {
+                    wanted[n.element(i, 12)].copy_from_slice(bytemuck::bytes_of(&normals[i]));
+                    wanted[t.element(i, 16)].copy_from_slice(bytemuck::bytes_of(&tangents[i]));
+                }
+                let codes = to.holding(&codes);
+                C::decode_vertices(to.read(&codes), n.write(&mut out), tangent).unwrap();
+                assert_eq!(out, wanted, "{} {normal} {tangent} {len}", C::NAME);
+            }
         }
     }
     frames::<OctAngle32>();
@@ -456,11 +472,11 @@ fn what_does_not_fit_is_refused_and_nothing_written() {
     }
     assert_eq!(
         Oct32::encode_within(within(&mut bytes, 15, 2), 12),
-        Err(StrideMismatch::Within {
-            vector: 0,
-            vector_size: 12,
-            code: 12,
-            code_size: 4,
+        Err(StrideMismatch::Fields {
+            first: 0,
+            first_size: 12,
+            second: 12,
+            second_size: 4,
             stride: 15,
             len: 2,
             bytes: 40
@@ -468,11 +484,11 @@ fn what_does_not_fit_is_refused_and_nothing_written() {
     );
     assert_eq!(
         Oct32::decode_within(within(&mut bytes, 20, 2), usize::MAX - 3),
-        Err(StrideMismatch::Within {
-            vector: usize::MAX - 3,
-            vector_size: 12,
-            code: 0,
-            code_size: 4,
+        Err(StrideMismatch::Fields {
+            first: usize::MAX - 3,
+            first_size: 12,
+            second: 0,
+            second_size: 4,
             stride: 20,
             len: 2,
             bytes: 40
@@ -480,11 +496,11 @@ fn what_does_not_fit_is_refused_and_nothing_written() {
     );
     assert_eq!(
         Oct32::encode_within(within(&mut bytes, 16, 3), 12),
-        Err(StrideMismatch::Within {
-            vector: 0,
-            vector_size: 12,
-            code: 12,
-            code_size: 4,
+        Err(StrideMismatch::Fields {
+            first: 0,
+            first_size: 12,
+            second: 12,
+            second_size: 4,
             stride: 16,
             len: 3,
             bytes: 40

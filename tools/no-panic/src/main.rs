@@ -214,11 +214,11 @@ fn errors() {
         StrideMismatch::Stride { stride: a, size: b },
         StrideMismatch::Lengths { vectors: a, codes: b },
         StrideMismatch::Frames { normals: a, tangents: b, codes: c },
-        StrideMismatch::Within {
-            vector: a,
-            vector_size: b,
-            code: c,
-            code_size: d,
+        StrideMismatch::Fields {
+            first: a,
+            first_size: b,
+            second: c,
+            second_size: d,
             stride: a,
             len: b,
             bytes: c,
@@ -542,6 +542,8 @@ fn frames<C: FrameCodec>() {
     black_box(skew.is_ok());
     let skew = <C as FrameCodec>::encode_strided_precise(strided(a), strided(b), strided_mut(c));
     black_box(skew.is_ok());
+    let (v, tangent) = (strided_mut(b), black_box(20));
+    black_box(<C as FrameCodec>::decode_vertices(strided(a), v, tangent).is_ok());
     black_box(
         <C as FrameCodec>::decode_strided(strided(a), strided_mut(b), strided_mut(c)).is_ok(),
     );
