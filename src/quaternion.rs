@@ -233,8 +233,8 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
     #[inline]
     fn encode_strided(q: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(q.len, codes.len)?;
-        Self::encode_batch(q.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        let (q, codes) = q.encoded(codes, CodeLayout::native::<Self::Code>())?;
+        Self::encode_batch(q, codes);
         Ok(())
     }
 
@@ -245,8 +245,8 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
     #[inline]
     fn encode_strided_precise(q: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(q.len, codes.len)?;
-        Self::encode_batch_precise(q.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        let (q, codes) = q.encoded(codes, CodeLayout::native::<Self::Code>())?;
+        Self::encode_batch_precise(q, codes);
         Ok(())
     }
 
@@ -257,8 +257,8 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
     #[inline]
     fn decode_strided(codes: Strided<'_>, q: StridedMut<'_>) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(q.len, codes.len)?;
-        Self::decode_batch(codes.codes(CodeLayout::native::<Self::Code>())?, q.vectors()?);
+        let (codes, q) = codes.decoded(q, CodeLayout::native::<Self::Code>())?;
+        Self::decode_batch(codes, q);
         Ok(())
     }
 }

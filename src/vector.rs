@@ -108,9 +108,43 @@ impl<'a> Strided<'a> {
         Ok(Vectors::Rows { bytes: self.elements(4 * K)?, stride: self.stride })
     }
 
+    /// Vectors of `K` native floats, and as many codes to encode them to.
+    #[inline]
+    pub(crate) fn encoded<'c, const K: usize>(
+        self,
+        codes: StridedMut<'c>,
+        layout: CodeLayout,
+    ) -> Result<(Vectors<'a, K>, CodesMut<'c>), StrideMismatch> {
+        StrideMismatch::check_lengths(self.len, codes.len)?;
+        Ok((self.vectors()?, codes.codes(layout)?))
+    }
+
+    /// Vectors of three native doubles, and as many codes to encode them to.
+    #[inline]
+    pub(crate) fn encoded_doubles<'c>(
+        self,
+        keeps: Keeps,
+        codes: StridedMut<'c>,
+        layout: CodeLayout,
+    ) -> Result<(Doubles<'a>, CodesMut<'c>), StrideMismatch> {
+        StrideMismatch::check_lengths(self.len, codes.len)?;
+        Ok((self.doubles(keeps)?, codes.codes(layout)?))
+    }
+
+    /// Codes, and as many vectors of `K` native floats to decode them to.
+    #[inline]
+    pub(crate) fn decoded<'v, const K: usize>(
+        self,
+        v: StridedMut<'v>,
+        layout: CodeLayout,
+    ) -> Result<(Codes<'a>, VectorsMut<'v, K>), StrideMismatch> {
+        StrideMismatch::check_lengths(v.len, self.len)?;
+        Ok((self.codes(layout)?, v.vectors()?))
+    }
+
     /// Vectors of three native doubles.
     #[inline]
-    pub(crate) fn doubles(self, keeps: Keeps) -> Result<Doubles<'a>, StrideMismatch> {
+    fn doubles(self, keeps: Keeps) -> Result<Doubles<'a>, StrideMismatch> {
         Ok(Doubles { bytes: self.elements(24)?, stride: self.stride, keeps })
     }
 
@@ -149,16 +183,37 @@ impl<'a> StridedMut<'a> {
         Ok(CodesMut::strided(self.elements(layout.size)?, layout, stride))
     }
 
-    /// Elements with a vector of `K` floats at `vector` and a code at `code`, wherever `offset` is.
+    /// Elements with a vector of three floats at `offset`, and its code at `code`.
     #[inline]
-    pub(crate) fn within<const K: usize>(
+    pub(crate) fn vectors_within(
+        self,
+        code: usize,
+        layout: CodeLayout,
+    ) -> Result<Within<'a>, StrideMismatch> {
+        let vector = self.offset;
+        self.within(vector, code, layout)
+    }
+
+    /// Elements with a code at `offset`, and its vector of three floats at `vector`.
+    #[inline]
+    pub(crate) fn codes_within(
+        self,
+        vector: usize,
+        layout: CodeLayout,
+    ) -> Result<Within<'a>, StrideMismatch> {
+        let code = self.offset;
+        self.within(vector, code, layout)
+    }
+
+    #[inline]
+    fn within(
         self,
         vector: usize,
         code: usize,
         layout: CodeLayout,
     ) -> Result<Within<'a>, StrideMismatch> {
         let stride = self.stride;
-        let (bytes, [vector, code]) = self.fields([vector, 4 * K], [code, layout.size])?;
+        let (bytes, [vector, code]) = self.fields([vector, 12], [code, layout.size])?;
         Ok(Within { bytes, stride, vector, code, layout })
     }
 

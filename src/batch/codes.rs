@@ -29,23 +29,17 @@ impl CodeLayout {
 #[derive(Clone, Copy)]
 pub struct Codes<'a> {
     bytes: &'a [u8],
-    /// See [`CodeLayout`].
-    size: usize,
-    /// A code begins every so many bytes, at least `size`. The last one may end before a whole stride.
+    layout: CodeLayout,
+    /// A code begins every so many bytes, at least its size. The last one may end before a whole stride.
     stride: usize,
-    /// See [`CodeLayout`].
-    native: usize,
 }
 
 /// Codes to write. What lies between them stays.
 pub struct CodesMut<'a> {
     bytes: &'a mut [u8],
-    /// See [`Codes`].
-    size: usize,
+    layout: CodeLayout,
     /// See [`Codes`].
     stride: usize,
-    /// See [`Codes`].
-    native: usize,
 }
 
 /// Room for `LEN` codes, made when it is needed.
@@ -54,32 +48,33 @@ pub(super) type Room<const LEN: usize> = Option<[[u8; MAX_CODE]; LEN]>;
 impl<'a> Codes<'a> {
     #[inline]
     pub(crate) fn native<C: Pod>(codes: &'a [C]) -> Self {
-        let size = size_of::<C>();
-        Codes { bytes: bytemuck::cast_slice(codes), size, stride: size, native: align_of::<C>() }
+        Codes::dense(bytemuck::cast_slice(codes), CodeLayout::native::<C>())
     }
 
     #[inline]
     pub(crate) fn little_endian(bytes: &'a [u8], size: usize) -> Self {
-        Codes { bytes, size, stride: size, native: 1 }
+        Codes::dense(bytes, CodeLayout::little_endian(size))
+    }
+
+    /// Codes without gaps.
+    #[inline]
+    pub(super) fn dense(bytes: &'a [u8], layout: CodeLayout) -> Self {
+        Codes { bytes, layout, stride: layout.size }
     }
 
     /// One code every `stride` bytes.
     #[inline]
-    pub(crate) fn strided(
-        bytes: &'a [u8],
-        CodeLayout { size, native }: CodeLayout,
-        stride: usize,
-    ) -> Self {
-        Codes { bytes, size, stride, native }
+    pub(crate) fn strided(bytes: &'a [u8], layout: CodeLayout, stride: usize) -> Self {
+        Codes { bytes, layout, stride }
     }
 
     pub(super) fn len(self) -> usize {
-        count(self.bytes.len(), self.size, self.stride)
+        count(self.bytes.len(), self.layout.size, self.stride)
     }
 
     /// Size of a code in bytes.
     pub(crate) fn size(self) -> usize {
-        self.size
+        self.layout.size
     }
 
     /// At most `len` codes at a time.
@@ -94,7 +89,7 @@ impl<'a> Codes<'a> {
     pub(super) fn each<const SIZE: usize>(self) -> impl Iterator<Item = [u8; SIZE]> {
         self.bytes.as_chunks().0.iter().map(move |code| {
             let mut code = *code;
-            swap_if_big_endian(&mut code, self.native);
+            swap_if_big_endian(&mut code, self.layout.native);
             code
         })
     }
@@ -102,7 +97,7 @@ impl<'a> Codes<'a> {
     /// The codes, if they are dense and little-endian.
     #[inline]
     pub(super) fn direct(self) -> Option<CodeSlice<'a>> {
-        let Codes { bytes, size, stride, native } = self;
+        let Codes { bytes, layout: CodeLayout { size, native }, stride } = self;
         let fits = stride == size && (cfg!(target_endian = "little") || native == 1);
         fits.then_some(CodeSlice { bytes, size })
     }
@@ -116,7 +111,7 @@ impl<'a> Codes<'a> {
         if let Some(codes) = self.direct() {
             return kernel(codes);
         }
-        let Codes { bytes, size, stride, native } = self;
+        let Codes { bytes, layout: CodeLayout { size, native }, stride } = self;
         let room = room.get_or_insert([[0; MAX_CODE]; LEN]).as_flattened_mut();
         if let Some(dense) = room.get_mut(..self.len() * size) {
             gather(bytes, size, stride, dense);
@@ -136,46 +131,47 @@ impl<'a> From<CodeSlice<'a>> for Codes<'a> {
 impl<'a> CodesMut<'a> {
     #[inline]
     pub(crate) fn native<C: Pod>(codes: &'a mut [C]) -> Self {
-        let (size, native) = (size_of::<C>(), align_of::<C>());
-        CodesMut { bytes: bytemuck::cast_slice_mut(codes), size, stride: size, native }
+        CodesMut::dense(bytemuck::cast_slice_mut(codes), CodeLayout::native::<C>())
     }
 
     #[inline]
     pub(crate) fn little_endian(bytes: &'a mut [u8], size: usize) -> Self {
-        CodesMut { bytes, size, stride: size, native: 1 }
+        CodesMut::dense(bytes, CodeLayout::little_endian(size))
+    }
+
+    /// Codes without gaps.
+    #[inline]
+    pub(super) fn dense(bytes: &'a mut [u8], layout: CodeLayout) -> Self {
+        CodesMut { bytes, layout, stride: layout.size }
     }
 
     /// One code every `stride` bytes.
     #[inline]
-    pub(crate) fn strided(
-        bytes: &'a mut [u8],
-        CodeLayout { size, native }: CodeLayout,
-        stride: usize,
-    ) -> Self {
-        CodesMut { bytes, size, stride, native }
+    pub(crate) fn strided(bytes: &'a mut [u8], layout: CodeLayout, stride: usize) -> Self {
+        CodesMut { bytes, layout, stride }
     }
 
     pub(super) fn len(&self) -> usize {
-        count(self.bytes.len(), self.size, self.stride)
+        count(self.bytes.len(), self.layout.size, self.stride)
     }
 
     /// Whether they are dense.
     #[inline]
     pub(super) fn is_dense(&self) -> bool {
-        self.stride == self.size
+        self.stride == self.layout.size
     }
 
     /// At most `len` codes at a time.
     pub(super) fn parts(self, len: usize) -> impl Iterator<Item = Self> {
-        let CodesMut { bytes, size, stride, native } = self;
+        let CodesMut { bytes, layout, stride } = self;
         let parts = bytes.chunks_mut(len.saturating_mul(stride).max(1));
-        parts.map(move |bytes| CodesMut { bytes, size, stride, native })
+        parts.map(move |bytes| CodesMut { bytes, layout, stride })
     }
 
     /// Lets a kernel write dense codes.
     #[inline]
     pub(super) fn write_dense(self, kernel: impl FnOnce(CodeSliceMut<'_>)) {
-        let CodesMut { bytes, size, native, .. } = self;
+        let CodesMut { bytes, layout: CodeLayout { size, native }, .. } = self;
         kernel(CodeSliceMut { bytes: &mut *bytes, size });
         swap_if_big_endian(bytes, native);
     }
@@ -190,7 +186,7 @@ impl<'a> CodesMut<'a> {
             return self.write_dense(kernel);
         }
         let len = self.len();
-        let CodesMut { bytes, size, stride, native } = self;
+        let CodesMut { bytes, layout: CodeLayout { size, native }, stride } = self;
         let room = room.get_or_insert([[0; MAX_CODE]; LEN]).as_flattened_mut();
         if let Some(dense) = room.get_mut(..len * size) {
             kernel(CodeSliceMut { bytes: &mut *dense, size });
@@ -205,7 +201,7 @@ impl<'a> CodesMut<'a> {
         room: &mut Room<LEN>,
         kernel: impl FnOnce(CodeSlice<'_>, CodeSliceMut<'_>),
     ) {
-        let CodesMut { bytes, size, native, .. } = self;
+        let CodesMut { bytes, layout: CodeLayout { size, native }, .. } = self;
         let room = room.get_or_insert([[0; MAX_CODE]; LEN]).as_flattened_mut();
         if let Some(before) = room.get_mut(..bytes.len()) {
             copy(bytes, before);
@@ -228,7 +224,7 @@ fn count(bytes: usize, size: usize, stride: usize) -> usize {
     bytes.saturating_add(stride.saturating_sub(size)).checked_div(stride).unwrap_or(0)
 }
 
-/// Calls a macro with the sizes that codes have.
+/// Calls a function with a code's size as its constant.
 macro_rules! by_size {
     ($size:expr, $copy:ident($($argument:expr),*)) => {
         match $size {

@@ -334,7 +334,7 @@ pub(crate) fn encode_within<const K: usize>(
         if let Some(codes) = room.as_flattened_mut().get_mut(..len * size)
             && let Some(vectors) = part.get(vector..)
         {
-            let to = CodesMut::strided(codes, layout, size);
+            let to = CodesMut::dense(codes, layout);
             encode(Vectors::Rows { bytes: vectors, stride }, to);
             if let Some(to) = part.get_mut(code..) {
                 scatter_codes(codes, to, size, stride);
@@ -359,7 +359,7 @@ pub(crate) fn decode_within<const K: usize>(
         {
             gather_codes(from, size, stride, codes);
             if let Some(to) = part.get_mut(vector..) {
-                let codes = Codes::strided(codes, layout, size);
+                let codes = Codes::dense(codes, layout);
                 decode(codes, VectorsMut::Rows { bytes: to, stride });
             }
         }

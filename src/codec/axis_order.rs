@@ -90,8 +90,8 @@ impl AxisOrder {
         v: Strided<'_>,
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode(codec, v.vectors()?, codes.codes(codec.code_layout())?);
+        let (v, codes) = v.encoded(codes, codec.code_layout())?;
+        self.encode(codec, v, codes);
         Ok(())
     }
 
@@ -107,8 +107,8 @@ impl AxisOrder {
         v: Strided<'_>,
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode_precise(codec, v.vectors()?, codes.codes(codec.code_layout())?);
+        let (v, codes) = v.encoded(codes, codec.code_layout())?;
+        self.encode_precise(codec, v, codes);
         Ok(())
     }
 
@@ -123,8 +123,8 @@ impl AxisOrder {
         codes: Strided<'_>,
         v: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.decode(codec, codes.codes(codec.code_layout())?, v.vectors()?);
+        let (codes, v) = codes.decoded(v, codec.code_layout())?;
+        self.decode(codec, codes, v);
         Ok(())
     }
 
@@ -140,8 +140,7 @@ impl AxisOrder {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let vector_offset = v.offset;
-        let within = v.within::<3>(vector_offset, code_offset, codec.code_layout())?;
+        let within = v.vectors_within(code_offset, codec.code_layout())?;
         layout::encode_within(within, &|v, codes| self.encode(codec, v, codes));
         Ok(())
     }
@@ -159,8 +158,7 @@ impl AxisOrder {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let vector_offset = v.offset;
-        let within = v.within::<3>(vector_offset, code_offset, codec.code_layout())?;
+        let within = v.vectors_within(code_offset, codec.code_layout())?;
         layout::encode_within(within, &|v, codes| self.encode_precise(codec, v, codes));
         Ok(())
     }
@@ -177,8 +175,7 @@ impl AxisOrder {
         codes: StridedMut<'_>,
         vector_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let code_offset = codes.offset;
-        let within = codes.within::<3>(vector_offset, code_offset, codec.code_layout())?;
+        let within = codes.codes_within(vector_offset, codec.code_layout())?;
         layout::decode_within(within, &|codes, v| self.decode(codec, codes, v));
         Ok(())
     }

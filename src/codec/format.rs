@@ -117,8 +117,8 @@ impl Format {
         v: Strided<'_>,
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode_batch(v.vectors()?, codes.codes(self.layout())?);
+        let (v, codes) = v.encoded(codes, self.layout())?;
+        self.encode_batch(v, codes);
         Ok(())
     }
 
@@ -131,8 +131,8 @@ impl Format {
         v: Strided<'_>,
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode_batch_precise(v.vectors()?, codes.codes(self.layout())?);
+        let (v, codes) = v.encoded(codes, self.layout())?;
+        self.encode_batch_precise(v, codes);
         Ok(())
     }
 
@@ -145,8 +145,8 @@ impl Format {
         codes: Strided<'_>,
         v: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.decode_batch(codes.codes(self.layout())?, v.vectors()?);
+        let (codes, v) = codes.decoded(v, self.layout())?;
+        self.decode_batch(codes, v);
         Ok(())
     }
 
@@ -160,8 +160,7 @@ impl Format {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let vector_offset = v.offset;
-        let within = v.within::<3>(vector_offset, code_offset, self.layout())?;
+        let within = v.vectors_within(code_offset, self.layout())?;
         layout::encode_within(within, &|v, codes| self.encode_batch(v, codes));
         Ok(())
     }
@@ -176,8 +175,7 @@ impl Format {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let vector_offset = v.offset;
-        let within = v.within::<3>(vector_offset, code_offset, self.layout())?;
+        let within = v.vectors_within(code_offset, self.layout())?;
         layout::encode_within(within, &|v, codes| self.encode_batch_precise(v, codes));
         Ok(())
     }
@@ -192,8 +190,7 @@ impl Format {
         codes: StridedMut<'_>,
         vector_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let code_offset = codes.offset;
-        let within = codes.within::<3>(vector_offset, code_offset, self.layout())?;
+        let within = codes.codes_within(vector_offset, self.layout())?;
         layout::decode_within(within, &|codes, v| self.decode_batch(codes, v));
         Ok(())
     }
@@ -245,8 +242,8 @@ impl Format {
         v: Strided<'_>,
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode_doubles(v.doubles(self.keeps())?, codes.codes(self.layout())?);
+        let (v, codes) = v.encoded_doubles(self.keeps(), codes, self.layout())?;
+        self.encode_doubles(v, codes);
         Ok(())
     }
 
@@ -259,8 +256,8 @@ impl Format {
         v: Strided<'_>,
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        self.encode_doubles_precise(v.doubles(self.keeps())?, codes.codes(self.layout())?);
+        let (v, codes) = v.encoded_doubles(self.keeps(), codes, self.layout())?;
+        self.encode_doubles_precise(v, codes);
         Ok(())
     }
 

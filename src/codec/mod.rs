@@ -222,8 +222,8 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
     #[inline]
     fn encode_strided(v: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        Self::encode_batch(v.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        let (v, codes) = v.encoded(codes, CodeLayout::native::<Self::Code>())?;
+        Self::encode_batch(v, codes);
         Ok(())
     }
 
@@ -234,8 +234,8 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
     #[inline]
     fn encode_strided_precise(v: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        Self::encode_batch_precise(v.vectors()?, codes.codes(CodeLayout::native::<Self::Code>())?);
+        let (v, codes) = v.encoded(codes, CodeLayout::native::<Self::Code>())?;
+        Self::encode_batch_precise(v, codes);
         Ok(())
     }
 
@@ -246,8 +246,8 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
     #[inline]
     fn decode_strided(codes: Strided<'_>, v: StridedMut<'_>) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        Self::decode_batch(codes.codes(CodeLayout::native::<Self::Code>())?, v.vectors()?);
+        let (codes, v) = codes.decoded(v, CodeLayout::native::<Self::Code>())?;
+        Self::decode_batch(codes, v);
         Ok(())
     }
 
@@ -269,9 +269,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// nothing is written then.
     #[inline]
     fn encode_within(v: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
-        let vector_offset = v.offset;
-        let layout = CodeLayout::native::<Self::Code>();
-        let within = v.within::<3>(vector_offset, code_offset, layout)?;
+        let within = v.vectors_within(code_offset, CodeLayout::native::<Self::Code>())?;
         layout::encode_within(within, &Self::encode_batch);
         Ok(())
     }
@@ -283,9 +281,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// nothing is written then.
     #[inline]
     fn encode_within_precise(v: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
-        let vector_offset = v.offset;
-        let layout = CodeLayout::native::<Self::Code>();
-        let within = v.within::<3>(vector_offset, code_offset, layout)?;
+        let within = v.vectors_within(code_offset, CodeLayout::native::<Self::Code>())?;
         layout::encode_within(within, &Self::encode_batch_precise);
         Ok(())
     }
@@ -298,9 +294,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// nothing is written then.
     #[inline]
     fn decode_within(codes: StridedMut<'_>, vector_offset: usize) -> Result<(), StrideMismatch> {
-        let code_offset = codes.offset;
-        let layout = CodeLayout::native::<Self::Code>();
-        let within = codes.within::<3>(vector_offset, code_offset, layout)?;
+        let within = codes.codes_within(vector_offset, CodeLayout::native::<Self::Code>())?;
         layout::decode_within(within, &Self::decode_batch);
         Ok(())
     }
@@ -368,9 +362,9 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// [`StrideMismatch`] if the elements do not fit their bytes, or their numbers differ; nothing is written then.
     #[inline]
     fn encode_strided_f64(v: Strided<'_>, codes: StridedMut<'_>) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
-        layout::encode(v.doubles(Self::FORMAT.keeps())?, codes, &mut Self::encode_columns);
+        let keeps = Self::FORMAT.keeps();
+        let (v, codes) = v.encoded_doubles(keeps, codes, CodeLayout::native::<Self::Code>())?;
+        layout::encode(v, codes, &mut Self::encode_columns);
         Ok(())
     }
 
@@ -384,9 +378,9 @@ pub trait Codec: Copy + 'static + sealed::Batch {
         v: Strided<'_>,
         codes: StridedMut<'_>,
     ) -> Result<(), StrideMismatch> {
-        StrideMismatch::check_lengths(v.len, codes.len)?;
-        let codes = codes.codes(CodeLayout::native::<Self::Code>())?;
-        layout::encode(v.doubles(Self::FORMAT.keeps())?, codes, &mut Self::encode_columns_precise);
+        let keeps = Self::FORMAT.keeps();
+        let (v, codes) = v.encoded_doubles(keeps, codes, CodeLayout::native::<Self::Code>())?;
+        layout::encode(v, codes, &mut Self::encode_columns_precise);
         Ok(())
     }
 
