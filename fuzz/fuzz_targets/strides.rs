@@ -3,51 +3,26 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use unitpack::{Strided, StridedMut};
 use unitpack_fuzz::{Bytes, Subject};
-use unitpack_test::Effort;
 use unitpack_test::vectors::bits;
+use unitpack_test::{Effort, Elements};
 
-/// Where elements are said to lie.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    offset: usize,
-    stride: usize,
-    len: usize,
+fn choose(bytes: &mut Bytes<'_>, size: usize) -> Elements {
+    let mut number = |near: usize| match bytes.byte() {
+        0 => usize::MAX,
+        1 => usize::MAX / 2,
+        2 => 1 << (usize::BITS / 2),
+        byte => near + usize::from(byte % 8),
+    };
+    let [offset, stride, len] = [number(0), number(size - 1), number(0)];
+    Elements { offset, stride, len: if len < 8 { 3 * len } else { len } }
 }
 
-impl Place {
-    fn choose(bytes: &mut Bytes<'_>, size: usize) -> Self {
-        let mut number = |near: usize| match bytes.byte() {
-            0 => usize::MAX,
-            1 => usize::MAX / 2,
-            2 => 1 << (usize::BITS / 2),
-            byte => near + usize::from(byte % 8),
-        };
-        let [offset, stride, len] = [number(0), number(size - 1), number(0)];
-        Place { offset, stride, len: if len < 8 { 3 * len } else { len } }
-    }
-
-    /// Where element `i` begins, if all lie in so many bytes.
-    fn at(self, i: usize) -> usize {
-        self.offset + i * self.stride
-    }
-
-    fn fits(self, size: usize, bytes: usize) -> bool {
-        let [offset, stride, len, size, bytes] =
-            [self.offset, self.stride, self.len, size, bytes].map(|n| n as u128);
-        len == 0 || stride >= size && (offset + (len - 1) * stride + size <= bytes)
-    }
-
-    fn read(self, bytes: &[u8]) -> Strided<'_> {
-        let Place { offset, stride, len } = self;
-        Strided { bytes, offset, stride, len }
-    }
-
-    fn write(self, bytes: &mut [u8]) -> StridedMut<'_> {
-        let Place { offset, stride, len } = self;
-        StridedMut { bytes, offset, stride, len }
-    }
+/// Whether they lie in so many bytes, in more bits than sizes have.
+fn lie_in(elements: Elements, size: usize, bytes: usize) -> bool {
+    let Elements { offset, stride, len } = elements;
+    let [offset, stride, len, size, bytes] = [offset, stride, len, size, bytes].map(|n| n as u128);
+    len == 0 || stride >= size && (offset + (len - 1) * stride + size <= bytes)
 }
 
 fuzz_target!(|data: &[u8]| {
@@ -56,16 +31,15 @@ fuzz_target!(|data: &[u8]| {
     let format = codec.format;
     let size = format.code_size();
     let effort = if bytes.byte() % 8 == 0 { Effort::Precise } else { Effort::Fast };
-    let vectors = Place::choose(&mut bytes, 12);
-    let mut codes = Place::choose(&mut bytes, size);
+    let vectors = choose(&mut bytes, 12);
+    let mut codes = choose(&mut bytes, size);
     if bytes.byte() % 8 != 0 {
         codes.len = vectors.len;
     }
     let code_offset = usize::from(bytes.byte() % 32);
     let from = bytes.0;
-    let vector_at = |bytes: &[u8], at: usize| {
-        let floats: [[u8; 4]; 3] =
-            std::array::from_fn(|i| bytes[at + 4 * i..][..4].try_into().unwrap());
+    let vector = |bytes: &[u8]| {
+        let floats: [[u8; 4]; 3] = std::array::from_fn(|i| bytes[4 * i..][..4].try_into().unwrap());
         floats.map(f32::from_ne_bytes)
     };
     let code_of = |v| codec.encode_with(effort, v).to_le_bytes();
@@ -77,14 +51,15 @@ fuzz_target!(|data: &[u8]| {
         Effort::Fast => format.encode_strided(vectors.read(from), codes.write(&mut to)),
         Effort::Precise => format.encode_strided_precise(vectors.read(from), codes.write(&mut to)),
     };
-    let fits =
-        vectors.len == codes.len && vectors.fits(12, from.len()) && codes.fits(size, before.len());
+    let fits = vectors.len == codes.len
+        && lie_in(vectors, 12, from.len())
+        && lie_in(codes, size, before.len());
     assert_eq!(result.is_ok(), fits, "{format}: {vectors:?} {codes:?} {result:?}");
     let mut wanted = before.clone();
     if fits {
         for i in 0..codes.len {
-            let code = code_of(vector_at(from, vectors.at(i)));
-            wanted[codes.at(i)..][..size].copy_from_slice(&code[..size]);
+            let code = code_of(vector(&from[vectors.element(i, 12)]));
+            wanted[codes.element(i, size)].copy_from_slice(&code[..size]);
         }
     }
     assert_eq!(to, wanted, "{format}: {vectors:?} {codes:?}");
@@ -92,16 +67,16 @@ fuzz_target!(|data: &[u8]| {
     let mut to = before.clone();
     let result = format.decode_strided(codes.read(from), vectors.write(&mut to));
     assert_eq!(result.is_ok(), fits, "{format}: {codes:?} {vectors:?} {result:?}");
-    let decode = |bytes: &[u8], at: usize| {
+    let decode = |bytes: &[u8]| {
         let mut code = [0; 16];
-        code[..size].copy_from_slice(&bytes[at..][..size]);
+        code[..size].copy_from_slice(bytes);
         bits((codec.decode)(u128::from_le_bytes(code)))
     };
     let mut wanted = before;
     if fits {
         for i in 0..codes.len {
-            let v = decode(from, codes.at(i)).map(u32::to_ne_bytes);
-            wanted[vectors.at(i)..][..12].copy_from_slice(v.as_flattened());
+            let v = decode(&from[codes.element(i, size)]).map(u32::to_ne_bytes);
+            wanted[vectors.element(i, 12)].copy_from_slice(v.as_flattened());
         }
     }
     assert_eq!(to, wanted, "{format}: {codes:?} {vectors:?}");
@@ -109,8 +84,8 @@ fuzz_target!(|data: &[u8]| {
     // In place.
     let first = vectors.offset.min(code_offset);
     let span = vectors.offset.saturating_add(12).max(code_offset + size) - first;
-    let fits = Place { offset: first, ..vectors }.fits(span, from.len());
-    let code = Place { offset: code_offset, ..vectors };
+    let fits = lie_in(Elements { offset: first, ..vectors }, span, from.len());
+    let code = Elements { offset: code_offset, ..vectors };
     let mut within = from.to_vec();
     let result = match effort {
         Effort::Fast => format.encode_within(vectors.write(&mut within), code_offset),
@@ -120,8 +95,8 @@ fuzz_target!(|data: &[u8]| {
     let mut wanted = from.to_vec();
     if fits {
         for i in 0..vectors.len {
-            let bytes = code_of(vector_at(from, vectors.at(i)));
-            wanted[code.at(i)..][..size].copy_from_slice(&bytes[..size]);
+            let bytes = code_of(vector(&from[vectors.element(i, 12)]));
+            wanted[code.element(i, size)].copy_from_slice(&bytes[..size]);
         }
     }
     assert_eq!(within, wanted, "{format}: {vectors:?} {code_offset}");
@@ -131,8 +106,8 @@ fuzz_target!(|data: &[u8]| {
     let mut wanted = from.to_vec();
     if fits {
         for i in 0..vectors.len {
-            let v = decode(from, code.at(i)).map(u32::to_ne_bytes);
-            wanted[vectors.at(i)..][..12].copy_from_slice(v.as_flattened());
+            let v = decode(&from[code.element(i, size)]).map(u32::to_ne_bytes);
+            wanted[vectors.element(i, 12)].copy_from_slice(v.as_flattened());
         }
     }
     assert_eq!(within, wanted, "{format}: {code:?} {vectors:?}");

@@ -20,6 +20,7 @@ mod any_codec;
 mod arrays;
 pub mod codes;
 pub mod digests;
+pub mod elements;
 pub mod every_code;
 pub mod frames;
 pub mod oracle;
@@ -34,6 +35,7 @@ pub mod vectors;
 pub use any_codec::{AnyCodec, Effort, Operation};
 pub use arrays::{Arrays, UNWRITTEN};
 pub use codes::Code;
+pub use elements::Elements;
 pub use typed::{Aos, Place, Transcode, Typed, representatives, transcodes};
 
 /// A vector as the crate takes and gives it.

@@ -1,6 +1,6 @@
 //! Vectors and codes where they lie: at strides, in place, and from iterators, against the functions of one vector.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::Zeroable;
 use unitpack::frame::{Frame, FrameCodec, OctAngle32, OctAngle64, QTangent64};
 use unitpack::quaternion::{
     QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, TanThree32,
@@ -10,62 +10,13 @@ use unitpack::{
     StrideMismatch, Strided, StridedMut, Visitor,
 };
 use unitpack_test::codes::random_codes;
+use unitpack_test::elements::FILL;
 use unitpack_test::random::{Rng, mixed_vectors};
 use unitpack_test::tasks::check_all;
-use unitpack_test::{AnyCodec, Effort, Vector, representatives};
+use unitpack_test::{AnyCodec, Effort, Elements as Place, Vector, representatives};
 
 /// Around the sizes of blocks and parts.
 const LENGTHS: [usize; 12] = [0, 1, 2, 7, 8, 16, 17, 63, 65, 257, 1025, 2100];
-
-/// Bytes around elements.
-const FILL: u8 = 0xEE;
-
-/// Where elements of some size lie in bytes: an offset, a stride, and how many.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    offset: usize,
-    stride: usize,
-    len: usize,
-}
-
-impl Place {
-    /// Any place: tight or not, at any alignment.
-    fn random(rng: &mut Rng, size: usize, len: usize) -> Self {
-        let gap = [0, 1, 3, 4, 20][rng.below(5) as usize];
-        Place { offset: rng.below(20) as usize, stride: size + gap, len }
-    }
-
-    /// Bytes that end with the last element.
-    fn bytes(self, size: usize) -> Vec<u8> {
-        let end = self.len.checked_sub(1).map_or(0, |last| self.offset + last * self.stride + size);
-        vec![FILL; end]
-    }
-
-    fn element(self, i: usize, size: usize) -> core::ops::Range<usize> {
-        let at = self.offset + i * self.stride;
-        at..at + size
-    }
-
-    fn read(self, bytes: &[u8]) -> Strided<'_> {
-        let Place { offset, stride, len } = self;
-        Strided { bytes, offset, stride, len }
-    }
-
-    fn write(self, bytes: &mut [u8]) -> StridedMut<'_> {
-        let Place { offset, stride, len } = self;
-        StridedMut { bytes, offset, stride, len }
-    }
-
-    /// Bytes that hold elements, and are otherwise filled.
-    fn holding<T: Pod>(self, elements: &[T]) -> Vec<u8> {
-        let size = size_of::<T>();
-        let mut bytes = self.bytes(size);
-        for (i, element) in elements.iter().enumerate() {
-            bytes[self.element(i, size)].copy_from_slice(bytemuck::bytes_of(element));
-        }
-        bytes
-    }
-}
 
 type Strides = fn(Format, Strided<'_>, StridedMut<'_>) -> Result<(), StrideMismatch>;
 type Structures = fn(Format, &[Vector], &mut [u8]) -> Result<(), LengthMismatch>;
