@@ -51,7 +51,7 @@ use crate::batch::storage::{from_native, to_native};
 use crate::error::{LengthMismatch, StrideMismatch};
 use crate::formula::support::sanitize::sanitize4;
 use crate::vector::{Strided, StridedMut};
-use chart::{Bits10, Bits15, Bits20};
+use chart::{OneWord, ThreeWords, TwoWords};
 use formula::{Rotation, RotationKernels};
 use smallest_three::SmallestThree;
 use tan_three::TanThree;
@@ -268,7 +268,7 @@ macro_rules! codecs {
     ($(
         $(#[$doc:meta])*
         $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
-            $formula:ty;
+            $formula:ty = $value:expr;
     )*) => {$(
         #[doc = concat!("`", $text, "`: ", $bits, " bits in a `", stringify!($code), "`.")]
         #[doc = ""]
@@ -282,7 +282,7 @@ macro_rules! codecs {
 
         const _: () = {
             type Bytes = [u8; size_of::<$code>()];
-            const FORMULA: $formula = <$formula>::new();
+            const FORMULA: $formula = $value;
 
             impl QuaternionCodec for $name {
                 type Code = $code;
@@ -333,22 +333,22 @@ codecs! {
     /// in the top two bits which component is left out, 0 to 3 for x to w. -512 reads as -511. The
     /// rotations (1, 0, 0, 0) to (0, 0, 0, 1) survive exactly.
     SmallestThree32: u32 = "smallest-three32", 32 bits, 0.2755 / 0.1592 degrees,
-        SmallestThree<Bits10>;
+        SmallestThree<OneWord> = SmallestThree::in_one_word(10);
     /// Smallest three: the three others in two's complement in the low 15 bits of a word each. The top
     /// bits of the first and the second word are the low and the high bit of which component is left
     /// out, 0 to 3 for x to w; the top bit of the third is spare. -16384 reads as -16383. The rotations
     /// (1, 0, 0, 0) to (0, 0, 0, 1) survive exactly.
     SmallestThree48: [u16; 3] = "smallest-three48", 47 bits, 0.00862 / 0.00498 degrees,
-        SmallestThree<Bits15>;
+        SmallestThree<ThreeWords> = SmallestThree::in_three_words();
     /// Smallest three: the three others in two's complement of 20 bits, the first in the low bits; bits
     /// 60 and 61 are spare, and the top two bits tell which component is left out, 0 to 3 for x to w.
     /// -524288 reads as -524287. The rotations (1, 0, 0, 0) to (0, 0, 0, 1) survive exactly.
     SmallestThree64: u64 = "smallest-three64", 62 bits, 0.000315 / 0.000167 degrees,
-        SmallestThree<Bits20>;
+        SmallestThree<TwoWords> = SmallestThree::in_two_words(20, 62);
     /// Tangents over the largest, 10-10-10-2: the three others in two's complement, the first in the low
     /// bits, and in the top two bits which component is left out, 0 to 3 for x to w. -512 reads as
     /// -511. The rotations (1, 0, 0, 0) to (0, 0, 0, 1) survive exactly, and so do all whose components
     /// are 0, c and -c.
     TanThree32: u32 = "tan-three32", 32 bits, 0.1533 / 0.1533 degrees,
-        TanThree<Bits10>;
+        TanThree<OneWord> = TanThree::new(OneWord::new(10));
 }

@@ -108,20 +108,23 @@ pub(super) fn floor_and_ceil_clamped<V: Simd>(x: V, m: i32) -> [V::Int; 2] {
 /// Where the three integers, snorm of some bits each, and the index are in a code.
 pub(super) trait Layout: Copy + Send + Sync + 'static {
     type Shape: CodeShape;
+
     /// Bits of a field.
-    const BITS: u32;
-    /// The greatest snorm.
-    const M: i32 = snorm_max(Self::BITS);
-
-    fn pack<V: Simd>(point: Point<V>) -> Code<Self, V>;
+    fn bits(self) -> u32;
+    fn pack<V: Simd>(self, point: Point<V>) -> Code<Self, V>;
     /// The fields, of which only the low bits count, and the index.
-    fn fields<V: Simd>(code: Code<Self, V>) -> Point<V>;
+    fn fields<V: Simd>(self, code: Code<Self, V>) -> Point<V>;
 
+    /// The greatest snorm.
+    #[inline(always)]
+    fn max(self) -> i32 {
+        snorm_max(self.bits())
+    }
     /// The pattern out of range reads as its neighbour.
     #[inline(always)]
-    fn unpack<V: Simd>(code: Code<Self, V>) -> Point<V> {
-        let point = Self::fields::<V>(code);
-        let fields = map_vec!(point.fields, |f| f.sign_extend(Self::BITS).max(-Self::M));
+    fn unpack<V: Simd>(self, code: Code<Self, V>) -> Point<V> {
+        let point = self.fields::<V>(code);
+        let fields = map_vec!(point.fields, |f| f.sign_extend(self.bits()).max(-self.max()));
         Point { fields, ..point }
     }
 }
@@ -129,70 +132,123 @@ pub(super) trait Layout: Copy + Send + Sync + 'static {
 /// A code of a layout in lanes.
 pub(super) type Code<Y, V> = <<Y as Layout>::Shape as CodeShape>::In<V>;
 
-/// 10-10-10-2.
-#[derive(Clone, Copy)]
-pub(super) struct Bits10;
+/// Three fields of at most 10 bits in a word, the first in the low bits, and the index above them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct OneWord {
+    bits: u32,
+}
+/// Three fields of at most 20 bits in two words, the first in the low bits, and the index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct TwoWords {
+    bits: u32,
+    /// Where the index begins.
+    index: u32,
+}
 /// A field in the low 15 bits of each of three words. The top bits of the first and the second are
 /// the index; that of the third is spare.
 #[derive(Clone, Copy)]
-pub(super) struct Bits15;
-/// 20-20-20, two spare bits, and 2.
-#[derive(Clone, Copy)]
-pub(super) struct Bits20;
+pub(super) struct ThreeWords;
 
-impl Layout for Bits10 {
-    type Shape = Word;
-    const BITS: u32 = 10;
-
-    #[inline(always)]
-    fn pack<V: Simd>(Point { fields, left_out }: Point<V>) -> V::Int {
-        let Vec3 { x: i, y: j, z: l } = map_vec!(fields, |f| f.low_bits(10));
-        i | j.shl(10) | l.shl(20) | left_out.shl(30)
-    }
-    #[inline(always)]
-    fn fields<V: Simd>(code: V::Int) -> Point<V> {
-        let fields = Vec3::new(code, code.shr_logical(10), code.shr_logical(20));
-        Point { fields, left_out: code.shr_logical(30) }
+impl OneWord {
+    pub(super) const fn new(bits: u32) -> Self {
+        assert!(bits <= 10);
+        OneWord { bits }
     }
 }
 
-impl Layout for Bits15 {
-    type Shape = Words3;
-    const BITS: u32 = 15;
+impl TwoWords {
+    pub(super) const fn new(bits: u32, index: u32) -> Self {
+        assert!(bits <= 20 && 3 * bits <= index && index <= 62);
+        TwoWords { bits, index }
+    }
+}
+
+impl Layout for OneWord {
+    type Shape = Word;
 
     #[inline(always)]
-    fn pack<V: Simd>(Point { fields, left_out }: Point<V>) -> [V::Int; 3] {
+    fn bits(self) -> u32 {
+        self.bits
+    }
+    #[inline(always)]
+    fn pack<V: Simd>(self, Point { fields, left_out }: Point<V>) -> V::Int {
+        let Vec3 { x: i, y: j, z: l } = map_vec!(fields, |f| f.low_bits(self.bits));
+        i | j.shl(self.bits) | l.shl(2 * self.bits) | left_out.shl(3 * self.bits)
+    }
+    #[inline(always)]
+    fn fields<V: Simd>(self, code: V::Int) -> Point<V> {
+        let fields = Vec3::new(code, code.shr_logical(self.bits), code.shr_logical(2 * self.bits));
+        Point { fields, left_out: code.shr_logical(3 * self.bits).low_bits(2) }
+    }
+}
+
+impl Layout for TwoWords {
+    type Shape = Words2;
+
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        self.bits
+    }
+    #[inline(always)]
+    fn pack<V: Simd>(self, Point { fields, left_out }: Point<V>) -> [V::Int; 2] {
+        let Vec3 { x: i, y: j, z: l } = map_vec!(fields, |f| f.low_bits(self.bits));
+        let [mut low, mut high] = [i, V::Int::splat(0)];
+        for (field, at) in [(j, self.bits), (l, 2 * self.bits), (left_out, self.index)] {
+            let part = put::<V>(field, at);
+            (low, high) = (low | part[0], high | part[1]);
+        }
+        [low, high]
+    }
+    #[inline(always)]
+    fn fields<V: Simd>(self, code: [V::Int; 2]) -> Point<V> {
+        let fields = Vec3::new(code[0], get::<V>(code, self.bits), get::<V>(code, 2 * self.bits));
+        Point { fields, left_out: get::<V>(code, self.index).low_bits(2) }
+    }
+}
+
+impl Layout for ThreeWords {
+    type Shape = Words3;
+
+    #[inline(always)]
+    fn bits(self) -> u32 {
+        15
+    }
+    #[inline(always)]
+    fn pack<V: Simd>(self, Point { fields, left_out }: Point<V>) -> [V::Int; 3] {
         let Vec3 { x: i, y: j, z: l } = map_vec!(fields, |f| f.low_bits(15));
         [i | left_out.shl(15), j | left_out.shr_logical(1).shl(15), l]
     }
     #[inline(always)]
-    fn fields<V: Simd>(code: [V::Int; 3]) -> Point<V> {
+    fn fields<V: Simd>(self, code: [V::Int; 3]) -> Point<V> {
         let low = code[0].shr_logical(15).low_bits(1);
         let high = code[1].shr_logical(15).low_bits(1);
         Point { fields: Vec3::from(code), left_out: low | high.shl(1) }
     }
 }
 
-impl Layout for Bits20 {
-    type Shape = Words2;
-    const BITS: u32 = 20;
+/// A field that begins at bit `at`, from 1 to 63, of two words.
+#[inline(always)]
+pub(super) fn put<V: Simd>(field: V::Int, at: u32) -> [V::Int; 2] {
+    if at < 32 {
+        [field.shl(at), field.shr_logical(32 - at)]
+    } else {
+        [V::Int::splat(0), field.shl(at - 32)]
+    }
+}
 
-    #[inline(always)]
-    fn pack<V: Simd>(Point { fields, left_out }: Point<V>) -> [V::Int; 2] {
-        let Vec3 { x: i, y: j, z: l } = map_vec!(fields, |f| f.low_bits(20));
-        [i | j.shl(20), j.shr_logical(12) | l.shl(8) | left_out.shl(30)]
-    }
-    #[inline(always)]
-    fn fields<V: Simd>([low, high]: [V::Int; 2]) -> Point<V> {
-        let j = low.shr_logical(20) | high.shl(12);
-        Point { fields: Vec3::new(low, j, high.shr_logical(8)), left_out: high.shr_logical(30) }
-    }
+/// What begins at bit `at`, from 1 to 63, of two words, and is followed by other bits.
+#[inline(always)]
+pub(super) fn get<V: Simd>([low, high]: [V::Int; 2], at: u32) -> V::Int {
+    if at < 32 { low.shr_logical(at) | high.shl(32 - at) } else { high.shr_logical(at - 32) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::simd::I32x1;
+
+    const BITS10: OneWord = OneWord::new(10);
+    const BITS20: TwoWords = TwoWords::new(20, 62);
 
     fn point(fields: [i32; 3], left_out: i32) -> Point<f32> {
         Point { fields: Vec3::from(fields.map(I32x1)), left_out: I32x1(left_out) }
@@ -204,32 +260,45 @@ mod tests {
 
     #[test]
     fn fields_are_where_the_layouts_say() {
-        assert_eq!(Bits10::pack::<f32>(point([1, -1, 2], 3)).0 as u32, 0xC02F_FC01);
+        assert_eq!(BITS10.pack::<f32>(point([1, -1, 2], 3)).0 as u32, 0xC02F_FC01);
+        // 3 << 12 | 2 << 8 | 15 << 4 | 1.
+        assert_eq!(OneWord::new(4).pack::<f32>(point([1, -1, 2], 3)).0, 0x32F1);
         // Of each word 16 bits are stored.
-        let words = |p| Bits15::pack::<f32>(p).map(|w| w.0 & 0xFFFF);
+        let words = |p| ThreeWords.pack::<f32>(p).map(|w| w.0 & 0xFFFF);
         assert_eq!(words(point([1, -1, 2], 1)), [0x8001, 0x7FFF, 0x0002]);
         assert_eq!(words(point([1, -1, 2], 2)), [0x0001, 0xFFFF, 0x0002]);
-        let halves = Bits20::pack::<f32>(point([1, -1, 2], 3)).map(|w| w.0 as u32);
-        assert_eq!(halves, [0xFFF0_0001, 0xC000_02FF]);
+        let halves =
+            |layout: TwoWords| layout.pack::<f32>(point([1, -1, 2], 3)).map(|w| w.0 as u32);
+        assert_eq!(halves(BITS20), [0xFFF0_0001, 0xC000_02FF]);
+        // 1, -1 from bit 12 on, 2 from bit 24 on and 3 from bit 36 on.
+        assert_eq!(halves(TwoWords::new(12, 36)), [0x02FF_F001, 0x30]);
+        // 2 from bit 32 on.
+        assert_eq!(halves(TwoWords::new(16, 48)), [0xFFFF_0001, 0x3_0002]);
     }
 
     #[test]
     fn fields_come_back_without_spare_bits() {
         let fields = [1, -1, 2];
-        assert_eq!(parts(Bits10::unpack::<f32>(I32x1(0xC02F_FC01_u32 as i32))), (fields, 3));
-        assert_eq!(parts(Bits15::unpack::<f32>([0x0001, 0xFFFF, 0x8002].map(I32x1))), (fields, 2));
+        assert_eq!(parts(BITS10.unpack::<f32>(I32x1(0xC02F_FC01_u32 as i32))), (fields, 3));
+        assert_eq!(parts(OneWord::new(4).unpack::<f32>(I32x1(0xF_72F1))), (fields, 3));
+        let words = [0x0001, 0xFFFF, 0x8002].map(I32x1);
+        assert_eq!(parts(ThreeWords.unpack::<f32>(words)), (fields, 2));
         let halves = [0xFFF0_0001_u32, 0xF000_02FF].map(|w| I32x1(w as i32));
-        assert_eq!(parts(Bits20::unpack::<f32>(halves)), (fields, 3));
+        assert_eq!(parts(BITS20.unpack::<f32>(halves)), (fields, 3));
+        let halves = [0x02FF_F001_u32, 0xFFFF_FFF0].map(|w| I32x1(w as i32));
+        assert_eq!(parts(TwoWords::new(12, 36).unpack::<f32>(halves)), (fields, 3));
+        let halves = [0xFFFF_0001_u32, 0xFFFE_0002].map(|w| I32x1(w as i32));
+        assert_eq!(parts(TwoWords::new(16, 48).unpack::<f32>(halves)), (fields, 2));
     }
 
     #[test]
     fn the_pattern_out_of_range_reads_as_its_neighbour() {
-        assert_eq!(parts(Bits10::unpack::<f32>(I32x1(0x200))), ([-511, 0, 0], 0));
-        assert_eq!(parts(Bits15::unpack::<f32>([0, 0x4000, 0].map(I32x1))), ([0, -16_383, 0], 0));
+        assert_eq!(parts(BITS10.unpack::<f32>(I32x1(0x200))), ([-511, 0, 0], 0));
         assert_eq!(
-            parts(Bits20::unpack::<f32>([0, 0x0800_0000].map(I32x1))),
-            ([0, 0, -524_287], 0)
+            parts(ThreeWords.unpack::<f32>([0, 0x4000, 0].map(I32x1))),
+            ([0, -16_383, 0], 0)
         );
+        assert_eq!(parts(BITS20.unpack::<f32>([0, 0x0800_0000].map(I32x1))), ([0, 0, -524_287], 0));
     }
 
     #[test]

@@ -17,14 +17,14 @@
 //! that is nearer has no component off by a step or more: so it is one of the eight roundings of some
 //! chart, and the nearest of those 32 is the nearest of all codes.
 //!
-//! Canonical: codes mean one rotation exactly where n is a square, so that the four integers are a
-//! quaternion in other charts too; the chart of the greatest component is the one emitted, the first of
-//! equals.
-
-use core::marker::PhantomData;
+//! Canonical: where the left-out component is about a whole number of steps too, other charts have codes of about
+//! the same rotation. Codes are of one rotation if the unit quaternions that they decode to are equal in `f32`. The
+//! one emitted is in the chart of the largest component or, if that has none, the first. An encoder looks for it
+//! twice: among the codes that decode to its input, and among those that decode as its choice does. So what was
+//! decoded becomes the same code again.
 
 use super::chart::{
-    Code, Layout, LeftOut, Point, floor_and_ceil_clamped, in_chart_of_largest, largest,
+    Code, Layout, LeftOut, OneWord, Point, ThreeWords, TwoWords, floor_and_ceil_clamped, largest,
 };
 use super::formula::Rotation;
 use crate::formula::support::bits::snorm_max;
@@ -33,20 +33,37 @@ use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map4};
 
 /// Smallest three in the layout `Y`.
 #[derive(Clone, Copy)]
-pub(super) struct SmallestThree<Y>(PhantomData<Y>);
+pub(super) struct SmallestThree<Y> {
+    layout: Y,
+    scale: Scale,
+}
+
+impl SmallestThree<OneWord> {
+    /// Fields of `bits` bits, from 4 to 10, and the index above them.
+    pub(super) const fn in_one_word(bits: u32) -> Self {
+        SmallestThree { layout: OneWord::new(bits), scale: Scale::new(bits) }
+    }
+}
+
+impl SmallestThree<TwoWords> {
+    /// Fields of `bits` bits, from 4 to 20, and the index from bit `index` on.
+    pub(super) const fn in_two_words(bits: u32, index: u32) -> Self {
+        SmallestThree { layout: TwoWords::new(bits, index), scale: Scale::new(bits) }
+    }
+}
+
+impl SmallestThree<ThreeWords> {
+    pub(super) const fn in_three_words() -> Self {
+        SmallestThree { layout: ThreeWords, scale: Scale::new(15) }
+    }
+}
 
 impl<Y: Layout> SmallestThree<Y> {
-    const SCALE: Scale = Scale::new(Y::BITS);
-
-    pub(super) const fn new() -> Self {
-        SmallestThree(PhantomData)
-    }
-
     /// The point of a code.
     #[inline(always)]
-    fn point<V: Simd>(code: Code<Y, V>) -> Point<V> {
-        let point = Y::unpack::<V>(code);
-        let beyond = Self::SCALE.left_out_squared::<V>(point.fields).0.lt(0.0);
+    fn point<V: Simd>(self, code: Code<Y, V>) -> Point<V> {
+        let point = self.layout.unpack::<V>(code);
+        let beyond = self.scale.left_out_squared::<V>(point.fields).0.lt(0.0);
         let zero = V::Int::splat(0);
         let identity = Point { fields: Vec3::new(zero, zero, zero), left_out: V::Int::splat(3) };
         Point::select(beyond, identity, point)
@@ -68,10 +85,14 @@ struct Scale {
     step: f32,
     /// 1 / (2 M^2).
     per_square: f32,
+    /// More than `f32` rounding moves the steps of a decoded quaternion.
+    noise: f32,
 }
 
 impl Scale {
     const fn new(bits: u32) -> Self {
+        // With fewer, rounding could make the three longer than a unit quaternion.
+        assert!(bits >= 4);
         let max = snorm_max(bits);
         let square = 2 * max as i64 * max as i64;
         Scale {
@@ -81,6 +102,7 @@ impl Scale {
             steps: (max as f64 * core::f64::consts::SQRT_2) as f32,
             step: (core::f64::consts::FRAC_1_SQRT_2 / max as f64) as f32,
             per_square: 1.0 / square as f32,
+            noise: 0.02 + 3e-7 * max as f32,
         }
     }
 
@@ -104,15 +126,69 @@ impl Scale {
         (high * 1_048_576.0 + rest, low)
     }
 
-    /// Of the points of one rotation the one that is emitted.
     #[inline(always)]
-    fn canonical_point<V: Simd>(self, point: Point<V>) -> Point<V> {
-        let (n, low) = self.left_out_squared::<V>(point.fields);
-        let root = sqrt(n).round_int();
-        // The root is off by less than 0.3, so equal low bits mean that all are.
-        let whole = (root * root).eq(low);
-        let q = LeftOut::<V>::new(point.left_out).insert_int(point.fields, root);
-        Point::select(whole, in_chart_of_largest::<V>(q), point)
+    fn decode<V: Simd>(self, Point { fields, left_out }: Point<V>) -> [V; 4] {
+        let (n, low) = self.left_out_squared::<V>(fields);
+        let root = sqrt(n * self.per_square);
+        // Whole numbers of steps are exact, so that it does not matter which component is left out.
+        let whole = (root * self.steps).round_int();
+        let exact = V::from_int(whole) * self.step;
+        let is_whole = (whole * whole).eq(low);
+        let main = V::select(is_whole, exact, root);
+        LeftOut::<V>::new(left_out).insert(Vec3::from_int(fields) * self.step, main)
+    }
+
+    /// Of the points that decode to the unit quaternion of `q`, and `point` if it is one of them, the one
+    /// that is emitted; `point` if there are none.
+    #[inline(always)]
+    fn first_alike<V: Simd>(self, q: [V; 4], point: Point<V>, is_alike: bool) -> Point<V> {
+        let unit = normalize(q);
+        let largest = largest(unit);
+        let rank = |chart: V::Int| V::Int::select(chart.eq(largest), -1, chart);
+        let mut least = if is_alike { rank(point.left_out) } else { V::Int::splat(4) };
+        let mut first = point;
+        let steps = map4!(unit, |c| c * self.steps);
+        let whole = map4!(steps, |c| c.round());
+        let [x, y, z, w] =
+            map4!([0, 1, 2, 3], |i: usize| { (steps[i] - whole[i]).abs().lt(self.noise) });
+        for (chart, fit) in [(0, y & z & w), (1, x & z & w), (2, x & y & w), (3, x & y & z)] {
+            let chart = V::Int::splat(chart);
+            let counts = fit & rank(chart).lt(least);
+            if counts.any() {
+                let chart_of = LeftOut::<V>::new(chart);
+                let (others, _) = chart_of.remove(whole);
+                let (_, main) = chart_of.remove(unit);
+                let signed = |c: V| c.negate_where_negative(main);
+                let fields = map_vec!(others, |c| signed(c).round_int());
+                let there = Point { fields, left_out: chart };
+                let decoded = normalize(self.decode::<V>(there));
+                let [x, y, z, w] = map4!([0, 1, 2, 3], |i: usize| {
+                    signed(unit[i]).le(decoded[i]) & decoded[i].le(signed(unit[i]))
+                });
+                let beyond = fields.abs_int();
+                let beyond = V::Int::splat(self.max).lt(beyond.x.max(beyond.y).max(beyond.z));
+                let alike = counts & !beyond & x & y & z & w;
+                least = V::Int::select(alike, rank(chart), least);
+                first = Point::select(alike, there, first);
+            }
+        }
+        first
+    }
+
+    /// What an encoder emits for `q` if it would choose `point`.
+    #[inline(always)]
+    fn canonical_choice<V: Simd>(self, q: [V; 4], point: Point<V>) -> Point<V> {
+        let point = self.first_alike(q, point, false);
+        self.first_alike(self.decode::<V>(point), point, true)
+    }
+
+    /// [`canonical_choice`](Self::canonical_choice), apart from the common way.
+    #[inline(never)]
+    fn between_charts<V: Simd>(self, q: [V; 4], point: Point<V>) -> Point<V> {
+        V::with_target_features(
+            #[inline(always)]
+            || self.canonical_choice(q, point),
+        )
     }
 
     /// The nearest of all points, canonical.
@@ -130,7 +206,7 @@ impl Scale {
                 for (left_out, (others, main)) in (0..).zip(charts) {
                     nearest.consider(self, others.into(), main, left_out);
                 }
-                self.canonical_point::<V>(nearest.point)
+                self.canonical_choice(q, nearest.point)
             },
         )
     }
@@ -176,42 +252,43 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
     fn encode<V: Simd>(self, q: [V; 4]) -> Code<Y, V> {
         let left_out = largest(q);
         let (others, main) = LeftOut::<V>::new(left_out).remove(q);
-        let scale = inv_sqrt(length_squared(q)) * Self::SCALE.steps;
+        let scale = inv_sqrt(length_squared(q)) * self.scale.steps;
         let signed = scale.negate_where_negative(main);
         let fields = (others * signed).round_int();
-        // Rounding moves what is left out by up to 1.6 steps: only so near to another chart can the
-        // code be one of that.
+        // Rounding moves what is left out by up to 1.6 steps and a field by a half. So the largest
+        // component of what is decoded may be another, by 2.1 steps, which rounding makes 2.6.
         let Vec3 { x: i, y: j, z: l } = fields.abs_int();
         let margin = main.abs() * scale - V::from_int(i.max(j).max(l));
         let mut point = Point { fields, left_out };
-        if margin.lt(2.0).any() {
-            point = Self::SCALE.canonical_point::<V>(point);
+        if margin.lt(2.75).any() {
+            point = self.scale.between_charts(q, point);
         }
-        Y::pack::<V>(point)
+        self.layout.pack::<V>(point)
     }
 
     #[inline(always)]
     fn encode_precise<V: Simd>(self, q: [V; 4]) -> Code<Y, V> {
-        Y::pack::<V>(Self::SCALE.nearest(q))
+        self.layout.pack::<V>(self.scale.nearest(q))
     }
 
     #[inline(always)]
     fn decode<V: Simd>(self, code: Code<Y, V>) -> [V; 4] {
-        let Point { fields, left_out } = Self::point::<V>(code);
-        let (n, low) = Self::SCALE.left_out_squared::<V>(fields);
-        let root = sqrt(n * Self::SCALE.per_square);
-        // Whole numbers of steps are exact, so that it does not matter which component is left out.
-        let whole = (root * Self::SCALE.steps).round_int();
-        let exact = V::from_int(whole) * Self::SCALE.step;
-        let is_whole = (whole * whole).eq(low);
-        let main = V::select(is_whole, exact, root);
-        LeftOut::<V>::new(left_out).insert(Vec3::from_int(fields) * Self::SCALE.step, main)
+        self.scale.decode::<V>(self.point::<V>(code))
     }
 
     #[inline(always)]
     fn canonical<V: Simd>(self, code: Code<Y, V>) -> Code<Y, V> {
-        Y::pack::<V>(Self::SCALE.canonical_point::<V>(Self::point::<V>(code)))
+        let point = self.point::<V>(code);
+        let decoded = self.scale.decode::<V>(point);
+        self.layout.pack::<V>(self.scale.first_alike(decoded, point, true))
     }
+}
+
+/// q / |q|.
+#[inline(always)]
+fn normalize<V: Simd>(q: [V; 4]) -> [V; 4] {
+    let inverse = inv_sqrt(length_squared(q));
+    map4!(q, |c| c * inverse)
 }
 
 /// q.q.
@@ -222,12 +299,12 @@ pub(super) fn length_squared<V: Simd>([x, y, z, w]: [V; 4]) -> V {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chart::{Bits10, Bits15, Bits20};
     use super::*;
     use crate::simd::I32x1;
 
-    const BITS10: SmallestThree<Bits10> = SmallestThree::new();
-    const BITS20: SmallestThree<Bits20> = SmallestThree::new();
+    const BITS10: SmallestThree<OneWord> = SmallestThree::in_one_word(10);
+    const BITS15: SmallestThree<ThreeWords> = SmallestThree::in_three_words();
+    const BITS20: SmallestThree<TwoWords> = SmallestThree::in_two_words(20, 62);
 
     /// Fields of 10 bits, and the component left out.
     const fn code([i, j, l]: [i32; 3], left_out: i32) -> i32 {
@@ -262,18 +339,17 @@ mod tests {
 
     #[test]
     fn axes_survive() {
-        fn check<Y: Layout>() {
+        fn check<Y: Layout>(formula: SmallestThree<Y>) {
             for axis in 0..4 {
                 let mut q = [0.0f32; 4];
                 q[axis] = 1.0;
-                let formula = SmallestThree::<Y>::new();
                 assert_eq!(formula.decode::<f32>(formula.encode(q)), q);
                 assert_eq!(formula.decode::<f32>(formula.encode_precise(q.map(|c| -c))), q);
             }
         }
-        check::<Bits10>();
-        check::<Bits15>();
-        check::<Bits20>();
+        check(BITS10);
+        check(BITS15);
+        check(BITS20);
     }
 
     #[test]
@@ -321,7 +397,7 @@ mod tests {
     fn the_rest_is_exact_where_it_is_longer_than_a_word() {
         let [m, i, j, l] = [524_287i64, 524_286, -3077, 70_055];
         let fields = Vec3::from([i, j, l].map(|f| I32x1(f as i32)));
-        let (n, low) = SmallestThree::<Bits20>::SCALE.left_out_squared::<f32>(fields);
+        let (n, low) = BITS20.scale.left_out_squared::<f32>(fields);
         let exact = 2 * m * m - i * i - j * j - l * l;
         assert_eq!((n, low.0), (exact as f32, exact as i32));
         // The same rotation in two charts: (M, 0, 0, M).

@@ -12,8 +12,6 @@
 //!
 //! Canonical: those codes belong to the first of the components of the greatest magnitude.
 
-use core::marker::PhantomData;
-
 use super::chart::{
     Code, Layout, LeftOut, Point, floor_and_ceil_clamped, in_chart_of_largest, largest,
 };
@@ -24,35 +22,35 @@ use crate::simd::{Simd, SimdInt, Vec3, map_vec, map2, map4};
 
 /// Tangents over the largest in the layout `Y`.
 #[derive(Clone, Copy)]
-pub(super) struct TanThree<Y>(PhantomData<Y>);
+pub(super) struct TanThree<Y>(Y);
 
 impl<Y: Layout> TanThree<Y> {
-    pub(super) const fn new() -> Self {
-        TanThree(PhantomData)
+    pub(super) const fn new(layout: Y) -> Self {
+        TanThree(layout)
     }
 
     /// tan((pi / 4) i / M); exact at the ends, as the sine of 45 degrees is the cosine.
     #[inline(always)]
-    fn tan<V: Simd>(i: V::Int) -> V {
-        let (sin, cos) = sin_cos_of_half(V::from_int(i) * (0.5 / Y::M as f32));
+    fn tan<V: Simd>(self, i: V::Int) -> V {
+        let (sin, cos) = sin_cos_of_half(V::from_int(i) * (0.5 / self.0.max() as f32));
         sin / cos
     }
 
     /// Its inverse of `side / axis`, for |side| <= |axis|.
     #[inline(always)]
-    fn param<V: Simd>(side: V, axis: V) -> V {
+    fn param<V: Simd>(self, side: V, axis: V) -> V {
         let (steep, angle) = angle_in_octant(axis.abs(), side.abs());
         // From half turns to eighths.
         let eighths = V::select(steep, angle + 0.25, angle) * 4.0;
-        let param = eighths * Y::M as f32;
+        let param = eighths * self.0.max() as f32;
         param.negate_where_negative(side).negate_where_negative(axis)
     }
 
     /// The code of a point, canonical.
     #[inline(always)]
-    fn pack<V: Simd>(Point { fields, left_out }: Point<V>) -> Code<Y, V> {
-        let q = LeftOut::<V>::new(left_out).insert_int(fields, V::Int::splat(Y::M));
-        Y::pack::<V>(in_chart_of_largest::<V>(q))
+    fn pack<V: Simd>(self, Point { fields, left_out }: Point<V>) -> Code<Y, V> {
+        let q = LeftOut::<V>::new(left_out).insert_int(fields, V::Int::splat(self.0.max()));
+        self.0.pack::<V>(in_chart_of_largest::<V>(q))
     }
 }
 
@@ -63,8 +61,8 @@ impl<Y: Layout> Rotation for TanThree<Y> {
     fn encode<V: Simd>(self, q: [V; 4]) -> Code<Y, V> {
         let left_out = largest(q);
         let (others, axis) = LeftOut::<V>::new(left_out).remove(q);
-        let fields = map_vec!(others, |side| Self::param(side, axis).round_int());
-        Self::pack(Point::<V> { fields, left_out })
+        let fields = map_vec!(others, |side| self.param(side, axis).round_int());
+        self.pack(Point::<V> { fields, left_out })
     }
 
     #[inline(always)]
@@ -73,8 +71,8 @@ impl<Y: Layout> Rotation for TanThree<Y> {
         let (others, axis) = LeftOut::<V>::new(left_out).remove(q);
         let target = map_vec!(others, |side| side / axis);
         let around = map_vec!(others, |side| {
-            let integers = floor_and_ceil_clamped(Self::param(side, axis), Y::M);
-            map2!(integers, |i| (i, Self::tan::<V>(i)))
+            let integers = floor_and_ceil_clamped(self.param(side, axis), self.0.max());
+            map2!(integers, |i| (i, self.tan::<V>(i)))
         });
         // Least squared sine of the angle, (|d|^2 |t|^2 - (t.d)^2) / (|t|^2 |c|^2), c = t + d.
         let tt = target.length_squared() + 1.0;
@@ -97,13 +95,13 @@ impl<Y: Layout> Rotation for TanThree<Y> {
                 }
             }
         }
-        Self::pack(point)
+        self.pack(point)
     }
 
     #[inline(always)]
     fn decode<V: Simd>(self, code: Code<Y, V>) -> [V; 4] {
-        let Point { fields, left_out } = Y::unpack::<V>(code);
-        let sides = map_vec!(fields, |i| Self::tan::<V>(i));
+        let Point { fields, left_out } = self.0.unpack::<V>(code);
+        let sides = map_vec!(fields, |i| self.tan::<V>(i));
         let q = LeftOut::<V>::new(left_out).insert(sides, V::splat(1.0));
         let inverse = inv_sqrt(length_squared(q));
         map4!(q, |c| c * inverse)
@@ -111,17 +109,17 @@ impl<Y: Layout> Rotation for TanThree<Y> {
 
     #[inline(always)]
     fn canonical<V: Simd>(self, code: Code<Y, V>) -> Code<Y, V> {
-        Self::pack::<V>(Y::unpack::<V>(code))
+        self.pack::<V>(self.0.unpack::<V>(code))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::chart::Bits10;
+    use super::super::chart::OneWord;
     use super::*;
     use crate::simd::I32x1;
 
-    const TAN: TanThree<Bits10> = TanThree::new();
+    const TAN: TanThree<OneWord> = TanThree::new(OneWord::new(10));
 
     /// Fields of 10 bits, and the component left out.
     const fn code([i, j, l]: [i32; 3], left_out: i32) -> i32 {
