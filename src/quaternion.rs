@@ -124,6 +124,9 @@ impl<'a> From<Soa4Mut<'a>> for VectorsMut<'a, 4> {
 /// alike. Zero and NaN encode as the identity, (0, 0, 0, 1), and infinite components as the limit
 /// direction. Any bit pattern decodes to a unit quaternion; the component left out is >= 0. All entry
 /// points give the same bits.
+///
+/// Both encoders are stable: they give the code that they gave once again for what it decodes to. So a
+/// buffer that is decoded and encoded keeps its bytes.
 pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     /// One packed rotation. Its bits are laid out as the codec's page says.
     type Code: Pod + Eq + core::fmt::Debug;
@@ -150,8 +153,8 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     fn decode(code: Self::Code) -> [f32; 4];
 
     /// The code that encoders emit for the rotation of `code`, any bit pattern: of several that mean
-    /// one rotation the same. In the formats of 32 bits it is `encode_precise(decode(code))`; the others
-    /// have different rotations nearer to each other than `f32` can tell, where that may be the other.
+    /// one rotation the same. It is `encode_precise(decode(code))`. In the formats of more than 32 bits, codes
+    /// whose unit quaternions are equal in `f32` mean one rotation.
     fn canonical(code: Self::Code) -> Self::Code;
 
     /// Whether encoders emit `code` for its rotation.

@@ -147,6 +147,7 @@ fn check<C: QuaternionCodec>(
         assert!(off <= limit(C::MAX_ERROR_DEGREES) + ROUNDING, "{} {q:?}: {off}", C::NAME);
         assert!(least <= limit(C::MAX_ERROR_PRECISE_DEGREES) + ROUNDING, "{} {q:?}", C::NAME);
         assert!(C::is_canonical(fast) && C::is_canonical(precise), "{} {q:?}", C::NAME);
+        assert_eq!(C::encode(C::decode(fast)), fast, "{} {q:?}", C::NAME);
         for factor in [2f64.powi(power), -(2f64.powi(power))] {
             let scaled = q.map(|c| (f64::from(c) * factor) as f32);
             if (0..4).all(|i| f64::from(scaled[i]) == f64::from(q[i]) * factor) {
@@ -166,12 +167,12 @@ fn check<C: QuaternionCodec>(
         let canonical = C::canonical(code);
         assert!(C::is_canonical(canonical), "{of}");
         if tangents || given.rest() >= 0 {
+            // Wider ones have rotations that f32 cannot tell apart.
+            let alike = if C::BITS == 32 { 1e-12 } else { ROUNDING };
             let off = chord(point(canonical).quaternion(tangents), expected);
-            assert!(off < 1e-12, "{of}, canonical {canonical:x?}");
+            assert!(off < alike, "{of}, canonical {canonical:x?}");
         }
-        if C::BITS == 32 {
-            assert_eq!(C::encode_precise(q), canonical, "{of}");
-        }
+        assert_eq!(C::encode_precise(q), canonical, "{of}");
     }
     batches::<C>(&q, &codes);
 }

@@ -29,7 +29,7 @@ use super::chart::{
 use super::formula::Rotation;
 use crate::formula::support::bits::snorm_max;
 use crate::simd::math::{inv_sqrt, sqrt};
-use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map4};
+use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map3, map4};
 
 /// Smallest three in the layout `Y`.
 #[derive(Clone, Copy)]
@@ -85,8 +85,6 @@ struct Scale {
     step: f32,
     /// 1 / (2 M^2).
     per_square: f32,
-    /// More than `f32` rounding moves the steps of a decoded quaternion.
-    noise: f32,
 }
 
 impl Scale {
@@ -102,7 +100,6 @@ impl Scale {
             steps: (max as f64 * core::f64::consts::SQRT_2) as f32,
             step: (core::f64::consts::FRAC_1_SQRT_2 / max as f64) as f32,
             per_square: 1.0 / square as f32,
-            noise: 0.02 + 3e-7 * max as f32,
         }
     }
 
@@ -139,55 +136,63 @@ impl Scale {
     }
 
     /// Of the points that decode to the unit quaternion of `q`, and `point` if it is one of them, the one
-    /// that is emitted; `point` if there are none.
+    /// that is emitted, and where there is one; `point` if there is none. Only where it is `asked`.
     #[inline(always)]
-    fn first_alike<V: Simd>(self, q: [V; 4], point: Point<V>, is_alike: bool) -> Point<V> {
+    fn first_alike<V: Simd>(
+        self,
+        asked: V::Mask,
+        q: [V; 4],
+        point: Point<V>,
+        is_alike: bool,
+    ) -> (V::Mask, Point<V>) {
         let unit = normalize(q);
         let largest = largest(unit);
         let rank = |chart: V::Int| V::Int::select(chart.eq(largest), -1, chart);
-        let mut least = if is_alike { rank(point.left_out) } else { V::Int::splat(4) };
+        let none = V::Int::splat(4);
+        let mut least = if is_alike { rank(point.left_out) } else { none };
         let mut first = point;
         let steps = map4!(unit, |c| c * self.steps);
-        let whole = map4!(steps, |c| c.round());
-        let [x, y, z, w] =
-            map4!([0, 1, 2, 3], |i: usize| { (steps[i] - whole[i]).abs().lt(self.noise) });
+        let [x, y, z, w] = map4!(steps, |c| is_about_whole(c));
         for (chart, fit) in [(0, y & z & w), (1, x & z & w), (2, x & y & w), (3, x & y & z)] {
             let chart = V::Int::splat(chart);
-            let counts = fit & rank(chart).lt(least);
+            let counts = asked & fit & rank(chart).lt(least);
             if counts.any() {
-                let chart_of = LeftOut::<V>::new(chart);
-                let (others, _) = chart_of.remove(whole);
-                let (_, main) = chart_of.remove(unit);
-                let signed = |c: V| c.negate_where_negative(main);
-                let fields = map_vec!(others, |c| signed(c).round_int());
+                let there = LeftOut::<V>::new(chart);
+                let (others, main) = there.remove(steps);
+                let fields = map_vec!(others, |c| c.negate_where_negative(main).round_int());
                 let there = Point { fields, left_out: chart };
                 let decoded = normalize(self.decode::<V>(there));
                 let [x, y, z, w] = map4!([0, 1, 2, 3], |i: usize| {
-                    signed(unit[i]).le(decoded[i]) & decoded[i].le(signed(unit[i]))
+                    let c = unit[i].negate_where_negative(main);
+                    c.le(decoded[i]) & decoded[i].le(c)
                 });
-                let beyond = fields.abs_int();
-                let beyond = V::Int::splat(self.max).lt(beyond.x.max(beyond.y).max(beyond.z));
+                let Vec3 { x: i, y: j, z: l } = fields.abs_int();
+                let beyond = V::Int::splat(self.max).lt(i.max(j).max(l));
                 let alike = counts & !beyond & x & y & z & w;
                 least = V::Int::select(alike, rank(chart), least);
                 first = Point::select(alike, there, first);
             }
         }
-        first
+        (least.lt(none), first)
     }
 
-    /// What an encoder emits for `q` if it would choose `point`.
+    /// What an encoder emits for `q` if it would choose `point`. Only where it is `asked`.
     #[inline(always)]
-    fn canonical_choice<V: Simd>(self, q: [V; 4], point: Point<V>) -> Point<V> {
-        let point = self.first_alike(q, point, false);
-        self.first_alike(self.decode::<V>(point), point, true)
+    fn canonical_choice<V: Simd>(self, asked: V::Mask, q: [V; 4], point: Point<V>) -> Point<V> {
+        let (found, point) = self.first_alike(asked, q, point, false);
+        let asked = asked & !found;
+        if !asked.any() {
+            return point;
+        }
+        self.first_alike(asked, self.decode::<V>(point), point, true).1
     }
 
     /// [`canonical_choice`](Self::canonical_choice), apart from the common way.
     #[inline(never)]
-    fn between_charts<V: Simd>(self, q: [V; 4], point: Point<V>) -> Point<V> {
+    fn between_charts<V: Simd>(self, asked: V::Mask, q: [V; 4], point: Point<V>) -> Point<V> {
         V::with_target_features(
             #[inline(always)]
-            || self.canonical_choice(q, point),
+            || self.canonical_choice(asked, q, point),
         )
     }
 
@@ -206,7 +211,7 @@ impl Scale {
                 for (left_out, (others, main)) in (0..).zip(charts) {
                     nearest.consider(self, others.into(), main, left_out);
                 }
-                self.canonical_choice(q, nearest.point)
+                self.canonical_choice(V::Mask::splat(true), q, nearest.point)
             },
         )
     }
@@ -254,14 +259,25 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
         let (others, main) = LeftOut::<V>::new(left_out).remove(q);
         let scale = inv_sqrt(length_squared(q)) * self.scale.steps;
         let signed = scale.negate_where_negative(main);
-        let fields = (others * signed).round_int();
+        let steps = others * signed;
+        let fields = steps.round_int();
         // Rounding moves what is left out by up to 1.6 steps and a field by a half. So the largest
         // component of what is decoded may be another, by 2.1 steps, which rounding makes 2.6.
         let Vec3 { x: i, y: j, z: l } = fields.abs_int();
         let margin = main.abs() * scale - V::from_int(i.max(j).max(l));
         let mut point = Point { fields, left_out };
-        if margin.lt(2.75).any() {
-            point = self.scale.between_charts(q, point);
+        let between = margin.lt(2.75);
+        if between.any() {
+            // Other charts have a code of this rotation only if what is left out is about whole, and of
+            // what decodes to `q` three components are.
+            let (n, _) = self.scale.left_out_squared::<V>(fields);
+            let [x, y, z] = map3!(steps.to_array(), |c| is_about_whole(c));
+            let main = is_about_whole(main * scale);
+            let three = (x & y & (z | main)) | (z & main & (x | y));
+            let asked = between & (three | is_about_whole(sqrt(n)));
+            if asked.any() {
+                point = self.scale.between_charts(asked, q, point);
+            }
         }
         self.layout.pack::<V>(point)
     }
@@ -280,8 +296,14 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
     fn canonical<V: Simd>(self, code: Code<Y, V>) -> Code<Y, V> {
         let point = self.point::<V>(code);
         let decoded = self.scale.decode::<V>(point);
-        self.layout.pack::<V>(self.scale.first_alike(decoded, point, true))
+        self.layout.pack::<V>(self.scale.first_alike(V::Mask::splat(true), decoded, point, true).1)
     }
+}
+
+/// Whether a number of steps is whole, up to seven roundings in `f32`.
+#[inline(always)]
+fn is_about_whole<V: Simd>(steps: V) -> V::Mask {
+    (steps - steps.round()).abs().le(steps.abs() * 4e-7)
 }
 
 /// q / |q|.
