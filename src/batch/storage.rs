@@ -57,6 +57,13 @@ impl<'a> CodeSlice<'a> {
     }
 }
 
+impl CodeSliceMut<'_> {
+    /// The same codes, for a while.
+    pub(crate) fn reborrow(&mut self) -> CodeSliceMut<'_> {
+        CodeSliceMut { bytes: &mut *self.bytes, size: self.size }
+    }
+}
+
 /// Codes of one size, the [`CodeBytes`], or of any that a word holds: [`Words`].
 pub(crate) trait CodeKind: 'static {
     type Shape: CodeShape;

@@ -2,9 +2,10 @@
 
 use super::format::Visitor;
 use super::sealed::Batch;
+use super::spare::{self, Spare};
 use super::{Axis, Codec, codec_table};
 use crate::batch::doubles::Keeps;
-use crate::batch::storage::{CodeSlice, CodeSliceMut, from_native, to_native};
+use crate::batch::storage::{CodeSlice, CodeSliceMut, MAX_CODE, from_native, to_native};
 use crate::formula::names::*;
 use crate::formula::{Formula, Kernels, Source, kernels};
 use crate::simd::stream::Fence;
@@ -43,7 +44,7 @@ macro_rules! precise_axes {
 macro_rules! define_codecs {
     ($(
         #[cfg(feature = $feature:literal)]
-        $family:literal, mirrors $mirrors:tt, $stable:ident {$(
+        $family:literal, mirrors $mirrors:tt, $stable:ident, none $none:ident {$(
             $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
                 exact $axes:tt $(/ $axes_precise:tt)?,
                 $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
@@ -83,6 +84,12 @@ macro_rules! define_codecs {
                 impl Codec for $name {
                     type Code = Code;
                     const FORMAT: Format = Format::$name;
+                    const NONE: Option<Code> = match Spare::$none.code($bits, size_of::<Code>()) {
+                        Some(code) => {
+                            Some(bytemuck::must_cast::<Bytes, Code>(spare::native(code, align_of::<Code>())))
+                        }
+                        None => None,
+                    };
 
                     #[inline]
                     fn encode(v: [f32; 3]) -> Code {
@@ -219,6 +226,19 @@ macro_rules! define_codecs {
             #[inline]
             pub const fn encode_is_stable(self) -> bool {
                 match self {$($(#[cfg(feature = $feature)] Format::$name => is_stable!($stable),)*)*}
+            }
+
+            /// The little-endian bytes of [`Codec::NONE`], if this codec has it.
+            #[inline]
+            pub const fn none(self) -> Option<&'static [u8]> {
+                match self {$($(#[cfg(feature = $feature)] Format::$name => {
+                    const CODE: Option<[u8; MAX_CODE]> = Spare::$none.code($bits, size_of::<$code>());
+                    const BYTES: Option<&[u8]> = match &CODE {
+                        Some(code) => Some(code.split_at(size_of::<$code>()).0),
+                        None => None,
+                    };
+                    BYTES
+                })*)*}
             }
 
             /// Calls `v` with the type of this codec.

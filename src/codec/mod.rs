@@ -4,7 +4,9 @@ mod axis_order;
 mod define;
 mod format;
 mod iter;
+mod or_none;
 mod report;
+mod spare;
 mod table;
 
 use crate::batch::doubles::{Doubles, to_f32};
@@ -16,6 +18,7 @@ pub use axis_order::AxisOrder;
 pub use define::*;
 pub use format::{UnknownFormat, Visitor, transcode};
 pub use iter::{DecodeIter, EncodeIter};
+pub use or_none::OrNone;
 pub use report::ErrorReport;
 pub(crate) use table::{codec_table, for_each_codec};
 
@@ -53,6 +56,16 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     type Code: bytemuck::Pod + Eq + core::fmt::Debug;
     /// The run-time twin of this type.
     const FORMAT: Format;
+    /// A code that no encoder gives, free to say that there is no vector: see [`OrNone`]. `None` if
+    /// encoders give all codes. It decodes to a unit vector, as all codes do.
+    ///
+    /// ```
+    /// use unitpack::{Codec, Fibonacci16, Oct16};
+    /// assert_eq!(Oct16::NONE, Some(0x8000));
+    /// assert!(!Oct16::is_canonical(0x8000));
+    /// assert_eq!(Fibonacci16::NONE, None);
+    /// ```
+    const NONE: Option<Self::Code>;
 
     /// Packs a vector of any length, rounding each parameter to nearest, ties to even. Gives a
     /// canonical code.

@@ -20,6 +20,7 @@ mod frame;
 mod golden;
 mod low_dimensions;
 mod max_error;
+mod or_none;
 mod oracle_agrees;
 mod packing;
 mod published_errors;
