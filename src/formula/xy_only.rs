@@ -678,20 +678,90 @@ mod tests {
         // 0.5 (1 + 205/1024) and 0.25 (1 + 942/1024).
         assert_eq!(HALF.encode(v * 5.0).0, 0x37AE_38CD);
         assert_near(HALF.decode::<f32>(0x37AE_38CD.into()), [0.600_097_7, 0.479_980_5, 0.639_923]);
+        // 127 v = (76.2, 60.96, 81.28), and 128 more.
+        assert_eq!([SNORM.encode(v * 5.0).0, BIASED.encode(v).0], [0x3D4C, 0xBDCC]);
+        // 76/127, 61/127, and the root of 127^2 - 76^2 - 61^2 = 6632.
+        for v in [SNORM.decode::<f32>(0x3D4C.into()), BIASED.decode::<f32>(0xBDCC.into())] {
+            assert_near(v, [0.598_425, 0.480_315, 0.641_237]);
+        }
+    }
+
+    #[test]
+    fn the_pattern_out_of_range_reads_as_its_neighbour() {
+        assert_eq!([canonical(SNORM, 0x0080), canonical(SNORM, 0x8000)], [0x0081, 0x8100]);
+        assert_eq!([canonical(BIASED, 0x8000), canonical(BIASED, 0x0080)], [0x8001, 0x0180]);
+    }
+
+    #[test]
+    fn beyond_the_rim_shaders_normalize() {
+        // (255, 181) and (181, 255) over their length.
+        assert_near(NORMALIZED.decode::<f32>(0xDAFF.into()), [0.815_459, 0.578_816, 0.0]);
+        assert_near(NORMALIZED.decode::<f32>(0x00DA.into()), [0.578_816, -0.815_459, 0.0]);
+        // (127, -127), and (120, 90) in the direction (4, 3).
+        assert_near(SNORM.decode::<f32>(0x817F.into()), [0.707_106_8, -0.707_106_8, 0.0]);
+        assert_near(BIASED.decode::<f32>(0xDAF8.into()), [0.8, 0.6, 0.0]);
+        // Inside, the two rules are one.
+        let inside = NORMALIZED.decode::<f32>(0xBDCC.into());
+        assert_eq!(inside, UNORM.decode::<f32>(0xBDCC.into()));
+    }
+
+    #[test]
+    fn of_one_direction_the_least_multiple_beyond_the_rim_is_canonical() {
+        // Of (1, 1): 127 / sqrt(2) = 89.8. Of (4, 3): 25.4. Of (3, -2): 35.2. (127, 90) is primitive.
+        for (code, first) in [
+            (0x7F7F, 0x5A5A),
+            (0x5A78, 0x4E68),
+            (0xAC7E, 0xB86C),
+            (0x5A7F, 0x5A7F),
+            (0x007F, 0x007F),
+            (0x3D4C, 0x3D4C),
+        ] {
+            assert_eq!(canonical(SNORM, code), first, "{code:x}");
+            assert_eq!(canonical(BIASED, code ^ 0x8080), first ^ 0x8080, "{code:x}");
+        }
+        // Odd multiples of (1, 1) from 180.3, of (5, 3) from 43.7, of (3, 1) from 80.6 and of (7, 5) from 29.6.
+        for (code, first) in [
+            (0xFFFF, 0xDADA),
+            (0xCCFF, 0xC3F0),
+            (0xAAFF, 0xA8F9),
+            (0xD7FA, 0xCDEC),
+            (0xFCFD, 0xFCFD),
+            (0xBDCC, 0xBDCC),
+        ] {
+            assert_eq!(canonical(NORMALIZED, code), first, "{code:x}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_on_the_rim_may_be_of_any_length() {
+        // 127 (0.8, 0.6) = (101.6, 76.2); 26 (4, 3) is exact.
+        let v = Vec3::new(4.0f32, 3.0, 0.0);
+        assert_eq!([SNORM.encode(v).0, SNORM.encode_precise(v).0], [0x4C66, 0x4E68]);
+        let v = Vec3::new(-3.0f32, 4.0, 0.0);
+        assert_eq!([SNORM.encode(v).0, SNORM.encode_precise(v).0], [0x66B4, 0x68B2]);
+        // 255 (5, 3) / sqrt(34) = (218.7, 131.2), so (219, 131); 45 (5, 3) is exact.
+        let v = Vec3::new(5.0f32, 3.0, 0.0);
+        assert_eq!([NORMALIZED.encode(v).0, NORMALIZED.encode_precise(v).0], [0xC1ED, 0xC3F0]);
+    }
+
+    fn assert_survives<R: Rim<G>, G: XyGrid>(formula: XyOnly<G, R>, axis: [f32; 3], code: u32) {
+        assert_eq!(formula.encode(axis.into()).0 as u32, code);
+        assert_eq!(formula.encode_precise(axis.into()).0 as u32, code);
+        assert_eq!(formula.decode::<f32>((code as i32).into()).to_array(), axis);
     }
 
     #[test]
     fn promised_axes_survive() {
-        for (axis, code) in [
-            ([1.0f32, 0.0, 0.0], 0x0000_3C00u32),
-            ([-1.0, 0.0, 0.0], 0x0000_BC00),
-            ([0.0, 1.0, 0.0], 0x3C00_0000),
-            ([0.0, -1.0, 0.0], 0xBC00_0000),
-            ([0.0, 0.0, 1.0], 0),
+        for (axis, half, snorm, biased) in [
+            ([1.0f32, 0.0, 0.0], 0x0000_3C00u32, 0x007F, 0x80FF),
+            ([-1.0, 0.0, 0.0], 0x0000_BC00, 0x0081, 0x8001),
+            ([0.0, 1.0, 0.0], 0x3C00_0000, 0x7F00, 0xFF80),
+            ([0.0, -1.0, 0.0], 0xBC00_0000, 0x8100, 0x0180),
+            ([0.0, 0.0, 1.0], 0, 0, 0x8080),
         ] {
-            assert_eq!(HALF.encode(axis.into()).0 as u32, code);
-            assert_eq!(HALF.encode_precise(axis.into()).0 as u32, code);
-            assert_eq!(HALF.decode::<f32>((code as i32).into()).to_array(), axis);
+            assert_survives(HALF, axis, half);
+            assert_survives(SNORM, axis, snorm);
+            assert_survives(BIASED, axis, biased);
         }
     }
 
