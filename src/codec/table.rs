@@ -115,7 +115,7 @@ macro_rules! codec_table {
     "XY-only: the +Z hemisphere, x and y as two unorm [parameters](Codec#bit-layout), (c + 1) / 2. \
      Beyond the rim, the smaller component is kept, but no more than the first grid value from sqrt(1/2); the larger one is put on the \
      rim, and z is 0. Shaders read such codes as (x, y, 0) over its length, as [`XyOnlyNormalized16`] does. In bytes the two differ \
-     by up to 9.9 degrees, at (255, 218), and only there: encoders give codes at most a step beyond the rim.", mirrors "X Y", unstable {
+     by up to 9.9 degrees, at (255, 218).", mirrors "X Y", unstable {
         XyOnly16: u16 = "XYOnly16", 16 bits, 6.05 / 3.611 degrees, exact "", XyOnly::<XyUnorm, Kept>::new(16), octant;
         XyOnly24: [u8; 3] = "XYOnly24", 24 bits, 1.51 / 0.8991 degrees, exact "", XyOnly::<XyUnorm, Kept>::new(24);
         XyOnly32: u32 = "XYOnly32", 32 bits, 0.379 / 0.2248 degrees, exact "", XyOnly::<XyUnorm, Kept>::new(32);
@@ -128,15 +128,15 @@ macro_rules! codec_table {
     #[cfg(feature = "xyonly")]
     "XY-only as shaders read it: the bits of [`XyOnly16`], but codes beyond the rim read as (x, y, 0) over its length, as \
      `normalize` of (x, y, sqrt(max(0, 1 - x^2 - y^2))) gives it. Of the codes of one direction the one nearest to the rim is canonical.", mirrors "X Y", unstable {
-        XyOnlyNormalized16: u16 = "XYOnly-normalized16", 16 bits, 6.05 / 3.611 degrees, exact "", XyOnly::<XyUnorm, Normalized>::new(16), octant;
+        XyOnlyNormalized16: u16 = "XYOnly-normalized16", 16 bits, 5.98 / 3.611 degrees, exact "", XyOnly::<XyUnorm, Normalized>::new(16), octant;
     }
     #[cfg(feature = "xyonly")]
     "XY-only as textures have it, with a zero: the +Z hemisphere, x and y as two bytes. XYOnly-snorm16 is that of BC5_SNORM and \
      RG8_SNORM, two's complement, where -128 reads as -127; XYOnly-biased16 has (c - 128) / 127 in unsigned bytes, where 128 is zero and 0 \
      reads as 1. Beyond the rim, a code reads as shaders do it: (x, y, 0) over its length. Of the codes of one direction \
      the one nearest to the rim is canonical.", mirrors "X Y", unstable {
-        XyOnlySnorm16: u16 = "XYOnly-snorm16", 16 bits, 6.05 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::new(16), octant;
-        XyOnlyBiased16: u16 = "XYOnly-biased16", 16 bits, 6.05 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::biased(16), octant;
+        XyOnlySnorm16: u16 = "XYOnly-snorm16", 16 bits, 6.02 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::new(16), octant;
+        XyOnlyBiased16: u16 = "XYOnly-biased16", 16 bits, 6.02 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::biased(16), octant;
     }
     #[cfg(feature = "disk")]
     "Disk projection, stereographic, as it is: codes outside the disk decode past the equator, where only `encode_precise` \

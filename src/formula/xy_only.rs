@@ -697,8 +697,8 @@ mod tests {
         // (255, 181) and (181, 255) over their length.
         assert_near(NORMALIZED.decode::<f32>(0xDAFF.into()), [0.815_459, 0.578_816, 0.0]);
         assert_near(NORMALIZED.decode::<f32>(0x00DA.into()), [0.578_816, -0.815_459, 0.0]);
-        // (127, -127), and (120, 90) in the direction (4, 3).
-        assert_near(SNORM.decode::<f32>(0x817F.into()), [0.707_106_8, -0.707_106_8, 0.0]);
+        // (105, -100) of length 145, and (120, 90) of length 150.
+        assert_near(SNORM.decode::<f32>(0x9C69.into()), [0.724_138, -0.689_655, 0.0]);
         assert_near(BIASED.decode::<f32>(0xDAF8.into()), [0.8, 0.6, 0.0]);
         // Inside, the two rules are one.
         let inside = NORMALIZED.decode::<f32>(0xBDCC.into());
