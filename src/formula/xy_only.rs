@@ -401,6 +401,9 @@ pub(crate) struct Normalized;
 impl Normalized {
     /// Of the points beyond the rim whose larger component is the first, the one in the direction
     /// nearest to (p, q), or a multiple of it. For |q| <= |p|.
+    ///
+    /// Every column has its two points around the target considered. Where both are inside, those beyond
+    /// the rim are more than a step off, and the last column, all beyond, has nearer ones.
     #[inline(always)]
     fn nearest_on_rim<G: EvenSteps, V: Simd>(formula: XyOnly<G, Self>, p: V, q: V) -> [V::Int; 2] {
         let XyOnly(grid, _) = formula;
