@@ -14,7 +14,7 @@
 //! | disk projections | 65 536 = 768 KiB | 8 192 = 96 KiB |
 //! | angularcube16 | 65 536 = 768 KiB | 8 112 = 95.1 KiB |
 //! | cube16, warpedcube16 | 65 536 = 768 KiB | 3 072 = 36 KiB |
-//! | HemiOct16, XYOnly16 | 65 536 = 768 KiB | 16 384 = 192 KiB |
+//! | HemiOct16, XY-only of 16 bits | 65 536 = 768 KiB | 16 384 = 192 KiB |
 //!
 //! ```
 //! use unitpack::decode_table::{DecodeTable, OctantTable};

@@ -38,6 +38,8 @@ pub(crate) use table::{codec_table, for_each_codec};
 /// `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`. Snorm ones are then biased: u and v plus 2047, where
 /// 4095 reads as 4094. All other codes of three bytes are integers in little-endian order.
 ///
+/// Formats named biased hold each snorm byte plus 128, as an unsigned one: 128 is zero, and 0 reads as 1.
+///
 /// # Operations on codes
 /// [`canonical`](Codec::canonical), [`negate`](Codec::negate) and [`mirror`](Codec::mirror) take any bit pattern and give
 /// what `encode_precise` gives for the decoded vector, or that negated or mirrored: a canonical code. In a hemisphere's format, a

@@ -115,15 +115,29 @@ macro_rules! codec_table {
     #[cfg(feature = "xyonly")]
     "XY-only: the +Z hemisphere, x and y as two unorm [parameters](Codec#bit-layout), (c + 1) / 2. \
      Beyond the rim, the smaller component is kept, but no more than the first grid value from sqrt(1/2); the larger one is put on the \
-     rim, and z is 0.", mirrors "X Y", unstable, none AllBits {
-        XyOnly16: u16 = "XYOnly16", 16 bits, 6.05 / 3.611 degrees, exact "", XyOnly::<XyUnorm>::new(16), octant;
-        XyOnly24: [u8; 3] = "XYOnly24", 24 bits, 1.51 / 0.8991 degrees, exact "", XyOnly::<XyUnorm>::new(24);
-        XyOnly32: u32 = "XYOnly32", 32 bits, 0.379 / 0.2248 degrees, exact "", XyOnly::<XyUnorm>::new(32);
+     rim, and z is 0. Shaders read such codes as (x, y, 0) over its length, as [`XyOnlyNormalized16`] does. In bytes the two differ \
+     by up to 9.9 degrees, at (255, 218). Zero is no value: in bytes, (128, 128) is 0.318 degrees off +Z. [`XyOnlyBiased16`] has 128 for zero.", mirrors "X Y", unstable, none AllBits {
+        XyOnly16: u16 = "XYOnly16", 16 bits, 6.05 / 3.611 degrees, exact "", XyOnly::<XyUnorm, Kept>::new(16), octant;
+        XyOnly24: [u8; 3] = "XYOnly24", 24 bits, 1.51 / 0.8991 degrees, exact "", XyOnly::<XyUnorm, Kept>::new(24);
+        XyOnly32: u32 = "XYOnly32", 32 bits, 0.379 / 0.2248 degrees, exact "", XyOnly::<XyUnorm, Kept>::new(32);
     }
     #[cfg(feature = "xyonly")]
     "XY-only: the +Z hemisphere, x and y as two halves, x in the low bits. Magnitudes above 1, infinity and NaN read as 1. Beyond the rim, the \
      smaller component is kept, but no more than the first half from sqrt(1/2); the larger one is put on the rim, and z is 0.", mirrors "X Y", unstable, none HighestBit {
-        XyOnly32F: u32 = "XYOnly32F", 32 bits, 1.51 / 0.8989 degrees, exact "±X ±Y +Z", XyOnly::<XyHalf>::new();
+        XyOnly32F: u32 = "XYOnly32F", 32 bits, 1.51 / 0.8989 degrees, exact "±X ±Y +Z", XyOnly::<XyHalf, Kept>::new();
+    }
+    #[cfg(feature = "xyonly")]
+    "XY-only as shaders read it: the bits of [`XyOnly16`], decoded by normalizing (x, y, sqrt(max(0, 1 - x^2 - y^2))). So codes \
+     beyond the rim read as (x, y, 0) over its length. Of the codes of one direction the one nearest to the rim is canonical.", mirrors "X Y", unstable, none AllBits {
+        XyOnlyNormalized16: u16 = "XYOnly-normalized16", 16 bits, 5.98 / 3.611 degrees, exact "", XyOnly::<XyUnorm, Normalized>::new(16), octant;
+    }
+    #[cfg(feature = "xyonly")]
+    "XY-only with a zero, as textures have it: the +Z hemisphere, x and y as two bytes. XYOnly-snorm16 has the two's complement of \
+     BC5_SNORM and RG8_SNORM, where -128 reads as -127. XYOnly-biased16 has (c - 128) / 127 in unsigned bytes: 128 is zero, and 0 \
+     reads as 1. Beyond the rim, a code reads as shaders do it: (x, y, 0) over its length. Of the codes of one direction \
+     the one nearest to the rim is canonical.", mirrors "X Y", unstable, none HighestBit {
+        XyOnlySnorm16: u16 = "XYOnly-snorm16", 16 bits, 6.02 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::new(16), octant;
+        XyOnlyBiased16: u16 = "XYOnly-biased16", 16 bits, 6.02 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::biased(16), octant;
     }
     #[cfg(feature = "disk")]
     "Disk projection, stereographic, as it is: codes outside the disk decode past the equator, where only `encode_precise` \
@@ -281,10 +295,16 @@ macro_rules! codec_table {
     }
     #[cfg(feature = "xyz")]
     "Cartesian, scaled and biased: three unorm components, (c + 1) / 2, x in the low bits, as a UNORM render target holds \
-     them. Decoding divides by the length. `encode_precise` gives the nearest direction of any length. xyz-unorm16x3 is finer \
+     them. Decoding divides by the length. `encode_precise` gives the nearest direction of any length. Zero is no value: in bytes, \
+     (128, 128, 255) is 0.318 degrees off +Z. [`XyzBiased8x3`] has 128 for zero. xyz-unorm16x3 is finer \
      than `f32`, so there what decodes alike is one direction.", mirrors "X Y Z", unstable, none AllBits {
         XyzUnorm8x3: [u8; 3] = "xyz-unorm8x3", 24 bits, 0.3898 / 0.3191 degrees, exact "", Xyz::unorm(8), hot;
         XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, exact "", Xyz16::unorm(), finer;
+    }
+    #[cfg(feature = "xyz")]
+    "Cartesian, biased so that 128 is zero, as painters of normal maps take it: three bytes, (c - 128) / 127, x in the low bits. 0 reads as 1, \
+     and (128, 128, 128) as +Z. The directions of [`Snorm8x3`], with the sign bits inverted.", mirrors "X Y Z", unstable, none AllBits {
+        XyzBiased8x3: [u8; 3] = "xyz-biased8x3", 24 bits, 0.3920 / 0.3203 degrees, exact "±X ±Y ±Z", Xyz::biased(8);
     }
     #[cfg(feature = "xyz")]
     "Crytek's best-fit normals: the bits of [`XyzUnorm8x3`], of the length that a table of 256 KiB gives for the direction. \

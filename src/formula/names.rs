@@ -29,4 +29,4 @@ pub(crate) use super::phi_z::PhiZ;
 #[cfg(feature = "theta-phi")]
 pub(crate) use super::spherical::Spherical;
 #[cfg(feature = "xyonly")]
-pub(crate) use super::xy_only::{XyHalf, XyOnly, XyUnorm};
+pub(crate) use super::xy_only::{Kept, Normalized, XyHalf, XyOnly, XySnorm, XyUnorm};

@@ -16,6 +16,7 @@ mod entry_points_agree;
 mod error_report;
 mod exhaustive;
 mod fibonacci;
+mod flat_texels;
 mod frame;
 mod golden;
 mod low_dimensions;

@@ -13,17 +13,24 @@ digests! { "mutants: cartesian":
     Float32x3,
     XyzUnorm8x3 / 4,
     XyzUnorm16x3 / 256,
+    XyzBiased8x3 / 4,
     CrytekBfn24 / 16,
     XyOnly16,
     XyOnly24 / 2,
     XyOnly32 / 4,
     XyOnly32F / 4,
+    XyOnlyNormalized16,
+    XyOnlySnorm16,
+    XyOnlyBiased16,
 }
 
 #[test]
 fn octant_tables_are_exact() {
     support::octant_table_is_exact::<Snorm5x3>();
     support::octant_table_is_exact::<XyOnly16>();
+    support::octant_table_is_exact::<XyOnlyNormalized16>();
+    support::octant_table_is_exact::<XyOnlySnorm16>();
+    support::octant_table_is_exact::<XyOnlyBiased16>();
 }
 
 /// The nearest code of `v`.
@@ -75,6 +82,51 @@ fn nearest_of_hard_vectors() {
     precise::<XyzUnorm8x3>([-0.99837416, 1.0048618, -0.9931956], &[0x01, 0xFF, 0x02]);
     precise::<XyOnly32>([0.50143874, -0.35518062, -0.4948815], &[0x74, 0xE8, 0x04, 0x36]);
     precise::<XyOnly32F>([-0.0055607366, 0.99602944, 0.007958152], &[0xB8, 0x9D, 0x00, 0x3C]);
+    precise::<XyOnlySnorm16>([0.92671347, 0.3754029, 0.016575687], &[0x79, 0x31]);
+    precise::<XyOnlySnorm16>([-0.5089389, -0.8606729, 0.014944942], &[0xBC, 0x8D]);
+    precise::<XyOnlySnorm16>([-0.98833394, 0.13363591, 0.0730577], &[0x83, 0x14]);
+    precise::<XyOnlySnorm16>([4.0, -3.0, 0.0], &[0x68, 0xB2]);
+    precise::<XyOnlyBiased16>([-0.98916835, 0.14089192, 0.041175347], &[0x02, 0x8F]);
+    precise::<XyOnlyBiased16>([0.43829826, 0.89882225, 0.0036307403], &[0xBB, 0xF9]);
+    precise::<XyOnlyNormalized16>([0.9480011, 0.3181925, 0.0068866], &[0xFE, 0xAA]);
+    precise::<XyOnlyNormalized16>([-0.50538743, -0.86288613, 0.003328909], &[0x36, 0x02]);
+    precise::<XyOnlyNormalized16>([0.9969118, -0.060424857, 0.050156046], &[0xFE, 0x73]);
+    precise::<XyOnlyNormalized16>([3.0, 5.0, 0.0], &[0xC3, 0xF0]);
+    precise::<XyzBiased8x3>([0.9927786, -0.9986093, -1.0029315], &[0xFC, 0x03, 0x03]);
+}
+
+/// The least multiple beyond the rim, found by trying all.
+#[test]
+fn first_multiples_beyond_the_rim() {
+    /// Of points that are `step` apart, in steps of which `most` are 1.
+    fn check(step: usize, most: i32, canonical: impl Fn(i32, i32) -> [i32; 2]) {
+        let values = || (-most..=most).step_by(step);
+        for [i, j] in values().flat_map(|i| values().map(move |j| [i, j])) {
+            let beyond = |[i, j]: [i32; 2]| i * i + j * j >= most * most;
+            let divides = |by: &i32| i % by == 0 && j % by == 0;
+            let point = if beyond([i, j]) {
+                let divisor = (1..=most).rev().find(divides).unwrap();
+                let multiples =
+                    (1..=divisor).step_by(step).map(|n| [i, j].map(|c| c / divisor * n));
+                multiples.into_iter().find(|&multiple| beyond(multiple)).unwrap()
+            } else {
+                [i, j]
+            };
+            assert_eq!(canonical(i, j), point, "({i}, {j})");
+        }
+    }
+    check(1, 127, |i, j| {
+        let code = u16::from_le_bytes([i as u8, j as u8]);
+        XyOnlySnorm16::canonical(code).to_le_bytes().map(|c| i32::from(c as i8))
+    });
+    check(1, 127, |i, j| {
+        let code = u16::from_le_bytes([i, j].map(|c| (c + 128) as u8));
+        XyOnlyBiased16::canonical(code).to_le_bytes().map(|c| i32::from(c) - 128)
+    });
+    check(2, 255, |i, j| {
+        let code = u16::from_le_bytes([i, j].map(|c| ((c + 255) / 2) as u8));
+        XyOnlyNormalized16::canonical(code).to_le_bytes().map(|c| 2 * i32::from(c) - 255)
+    });
 }
 
 /// Points half way between whose multiples the length is 1 but for one part in a million. In no grid of

@@ -2,9 +2,10 @@
 
 use crate::batch::storage::{CodeShape, Word, Words3};
 use crate::formula::support::bits::{snorm_max, unorm_max};
+use crate::formula::support::divisor::gcd;
 use crate::formula::support::half;
 use crate::simd::math::inv_sqrt;
-use crate::simd::{Simd, SimdInt, SimdMask, Vec3, map_vec, map3};
+use crate::simd::{Simd, SimdInt, Vec3, map_vec, map3};
 
 /// The values that each component may have, and where they are in a code.
 pub(crate) trait Grid: Copy + Send + Sync + 'static {
@@ -45,7 +46,7 @@ pub(crate) trait Grid: Copy + Send + Sync + 'static {
     fn unpack<V: Simd>(self, code: <Self::Shape as CodeShape>::In<V>) -> Vec3<V::Int>;
 }
 
-/// Integers over a number of steps: all of them, snorm, or the odd ones, biased unorm.
+/// Integers over a number of steps: all of them, snorm, or the odd ones, scaled and biased unorm.
 #[derive(Clone, Copy)]
 pub(crate) struct Steps {
     bits: [u32; 3],
@@ -54,6 +55,8 @@ pub(crate) struct Steps {
     step: [f32; 3],
     lengths: i32,
     uneven: Option<Uneven>,
+    /// Bits of a code that are stored inverted.
+    flip: i32,
 }
 
 impl Steps {
@@ -69,7 +72,14 @@ impl Steps {
             step: [1.0 / steps[0], 1.0 / steps[1], 1.0 / steps[2]],
             lengths: snorm_max(bits[0]),
             uneven: if bits[2] < bits[0] { Some(Uneven::new(bits)) } else { None },
+            flip: 0,
         }
+    }
+
+    /// Snorm in offset binary, (c - 2^(bits - 1)) / M: two's complement with its sign bits inverted.
+    pub(super) const fn biased(bits: u32) -> Self {
+        let sign = 1 << (bits - 1);
+        Steps { flip: sign | sign << bits | sign << (2 * bits), ..Steps::snorm([bits; 3]) }
     }
 
     /// Biased unorm, (c + 1) / 2: the odd numbers from -(2^bits - 1). No component is zero.
@@ -82,6 +92,7 @@ impl Steps {
             step: [1.0 / steps; 3],
             lengths: (unorm_max(bits) + 1) / 2,
             uneven: None,
+            flip: 0,
         }
     }
 
@@ -202,11 +213,14 @@ impl Grid for Steps {
     fn pack<V: Simd>(self, point: Vec3<V::Int>) -> V::Int {
         let [x, y, z] = self.bits;
         let fields = self.fields_of::<V>(point);
-        fields.x.low_bits(x) | fields.y.low_bits(y).shl(x) | fields.z.low_bits(z).shl(x + y)
+        let code =
+            fields.x.low_bits(x) | fields.y.low_bits(y).shl(x) | fields.z.low_bits(z).shl(x + y);
+        code ^ self.flip
     }
     #[inline(always)]
     fn unpack<V: Simd>(self, code: V::Int) -> Vec3<V::Int> {
         let [x, y, _] = self.bits;
+        let code = code ^ self.flip;
         self.point_of::<V>(Vec3::new(code, code.shr_logical(x), code.shr_logical(x + y)))
     }
 }
@@ -394,28 +408,6 @@ impl Uneven {
     }
 }
 
-/// The greatest common divisor of three integers from 0 to 2^16, not all of them zero.
-#[inline(always)]
-fn gcd<V: Simd>(numbers: Vec3<V>) -> V {
-    /// What is left of x, or what it lacks of one more divisor.
-    #[inline(always)]
-    fn rest<V: Simd>(x: V, by: V, per: V) -> V {
-        (x - (x * per).round() * by).abs()
-    }
-    let zero = V::splat(0.0);
-    let Vec3 { x: mut a, y: mut b, z: mut c } = numbers;
-    loop {
-        let (least, most) = (b.min(c), b.max(c));
-        if !zero.lt(most).any() {
-            return a;
-        }
-        // By the least that is not zero.
-        let by = V::select(zero.lt(least), least, V::select(zero.lt(most), most, a));
-        let per = V::splat(1.0) / by;
-        (a, b, c) = (by, rest(a, by, per), rest(most, by, per));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -423,22 +415,6 @@ mod tests {
 
     fn representative(grid: impl Grid, point: [i32; 3]) -> [i32; 3] {
         grid.representative::<f32>(point.map(I32x1).into()).to_array().map(|i| i.0)
-    }
-
-    #[test]
-    fn the_common_divisor_is_that_of_all_three() {
-        for (numbers, divisor) in [
-            ([12, 18, 30], 6),
-            ([0, 0, 5], 5),
-            ([7, 0, 0], 7),
-            ([0, 21, 14], 7),
-            ([65_535, 65_534, 0], 1),
-            ([32_767, 32_767, 32_767], 32_767),
-            ([46_368, 28_657, 0], 1),
-            ([65_536, 49_152, 16_384], 16_384),
-        ] {
-            assert_eq!(gcd(Vec3::from(numbers.map(|n| n as f32))), divisor as f32);
-        }
     }
 
     #[test]
@@ -451,6 +427,10 @@ mod tests {
         let unorm = Steps::unorm(8);
         assert_eq!(unorm.pack::<f32>(point.into()).0, 0x40_827E);
         assert_eq!(unorm.unpack::<f32>(0x40_827E.into()).to_array(), point);
+        // i + 128; 0 reads as 1.
+        let biased = Steps::biased(8);
+        assert_eq!(biased.pack::<f32>(point.into()).0, 0x01_857D);
+        assert_eq!(biased.unpack::<f32>(0x00_857D.into()).to_array(), point);
     }
 
     #[test]

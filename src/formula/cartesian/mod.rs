@@ -16,6 +16,9 @@
 //! snorm16x3 and float16x3, those that decode alike count as one. Axes survive exactly. In snorm,
 //! -M-1 reads as -M; in halves, infinities and NaN read as 65504.
 //!
+//! Biased snorm, (c - 128) / 127 in bytes, has the points of snorm in offset binary, as textures of unsigned
+//! bytes need it: only the sign bits differ. 128 is zero, and 0 reads as 1.
+//!
 //! [`Floats`] stores the bits of the input as they are, and gives them back.
 //!
 //! Source: Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors",
@@ -41,9 +44,9 @@ use search::Search;
 #[derive(Clone, Copy)]
 pub(crate) struct Cartesian<G>(G);
 
-/// Snorm or biased unorm, in one word.
+/// Snorm or scaled and biased unorm, in one word.
 pub(crate) type Xyz = Cartesian<Steps>;
-/// Snorm, biased unorm or halves, of 16 bits each.
+/// Snorm, scaled and biased unorm or halves, of 16 bits each.
 pub(crate) type Xyz16 = Cartesian<Fine>;
 
 impl Xyz {
@@ -53,9 +56,14 @@ impl Xyz {
         Cartesian(Steps::snorm(bits))
     }
 
-    /// Biased unorm with `bits` bits for each.
+    /// Scaled and biased unorm with `bits` bits for each.
     pub(crate) const fn unorm(bits: u32) -> Self {
         Cartesian(Steps::unorm(bits))
+    }
+
+    /// Snorm in offset binary, with `bits` bits for each: in bytes, 128 is zero.
+    pub(crate) const fn biased(bits: u32) -> Self {
+        Cartesian(Steps::biased(bits))
     }
 
     pub(crate) const fn points_per_octant(self) -> usize {
@@ -173,6 +181,7 @@ mod tests {
     const SNORM5: Xyz = Xyz::snorm([5, 5, 5]);
     const SNORM11_10: Xyz = Xyz::snorm([11, 11, 10]);
     const UNORM8: Xyz = Xyz::unorm(8);
+    const BIASED8: Xyz = Xyz::biased(8);
     const SNORM16: Xyz16 = Xyz16::snorm();
     const HALVES: Xyz16 = Xyz16::halves();
 
@@ -191,6 +200,8 @@ mod tests {
         // 127 v = (60.96, 45.72, 101.6).
         assert_eq!(SNORM8.encode(v * 9.0).0, 0x66_2E3D);
         assert_eq!(SNORM8.encode(-v).0, 0x9A_D2C3);
+        // 128 more, with or without sign.
+        assert_eq!([BIASED8.encode(v).0, BIASED8.encode(-v).0], [0xE6_AEBD, 0x1A_5243]);
         // 1023 * 0.48 = 491.04, 1023 * 0.36 = 368.28, 511 * 0.8 = 408.8.
         assert_eq!(SNORM11_10.encode(v).0, 491 | 368 << 11 | 409 << 22);
         // 127.5 (1 + c): 204, 209.1 and 188.7.
@@ -208,6 +219,7 @@ mod tests {
         let expected = Vec3::new(3.0f32, 4.0, 12.0) * (1.0 / 13.0);
         for v in [
             SNORM8.decode::<f32>(0x0C_0403.into()),
+            BIASED8.decode::<f32>(0x8C_8483.into()),
             SNORM5.decode::<f32>((3 | 4 << 5 | 12 << 10).into()),
             SNORM16.decode::<f32>([3, 4, 12].map(I32x1)),
             HALVES.decode::<f32>([0x4200, 0x4400, 0x4A00].map(I32x1)),
@@ -223,7 +235,7 @@ mod tests {
         for axis in 0..6 {
             let mut v = [0.0f32; 3];
             v[axis / 2] = if axis % 2 == 0 { 1.0 } else { -1.0 };
-            for formula in [SNORM8, SNORM5, SNORM11_10] {
+            for formula in [SNORM8, SNORM5, SNORM11_10, BIASED8] {
                 for code in [formula.encode(v.into()), formula.encode_precise(v.into())] {
                     assert_eq!(formula.decode::<f32>(code).to_array(), v);
                 }
@@ -241,6 +253,7 @@ mod tests {
         // 127 / sqrt(2) = 89.8; 15 / sqrt(14) = 4.01; odd multiples of (1, 1, 1) near 255 / sqrt(3) = 147.2.
         assert_eq!(canonical(SNORM8, 0x00_0101), 0x00_5A5A);
         assert_eq!(canonical(SNORM8, 0x00_007F), 0x00_007F);
+        assert_eq!(canonical(BIASED8, 0x80_8181), 0x80_DADA);
         assert_eq!(canonical(SNORM5, 1 | 2 << 5 | 3 << 10), 4 | 8 << 5 | 12 << 10);
         assert_eq!(canonical(UNORM8, 0x80_8080), 0xC9_C9C9);
         // 1023 / 409.2 is a little less than 2.5, but 5 times half of it is still below 2: so three times.
@@ -254,6 +267,8 @@ mod tests {
     fn zero_reads_as_the_pole() {
         assert_eq!(SNORM8.decode::<f32>(0.into()).to_array(), [0.0, 0.0, 1.0]);
         assert_eq!([canonical(SNORM8, 0), canonical(SNORM5, 0)], [0x7F_0000, 15 << 10]);
+        assert_eq!(BIASED8.decode::<f32>(0x80_8080.into()).to_array(), [0.0, 0.0, 1.0]);
+        assert_eq!(canonical(BIASED8, 0x80_8080), 0xFF_8080);
         assert_eq!(canonical16(SNORM16, [0; 3]), [0, 0, 0x7FFF]);
         assert_eq!(canonical16(HALVES, [0, 0x8000, 0]), [0, 0, 0x3C00]);
     }
@@ -261,6 +276,7 @@ mod tests {
     #[test]
     fn what_is_out_of_range_reads_as_the_greatest() {
         assert_eq!(canonical(SNORM8, 0x80), 0x81);
+        assert_eq!(canonical(BIASED8, 0x80_8000), 0x80_8001);
         assert_eq!(canonical(SNORM11_10, 0x200 << 22), 0x201 << 22);
         assert_eq!(canonical16(SNORM16, [0x8000, 0, 0]), [0x8001, 0, 0]);
         // Infinity, NaN and 65504 are one number.

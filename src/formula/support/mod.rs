@@ -2,6 +2,8 @@
 
 pub(crate) mod bits;
 pub(crate) mod closest;
+#[cfg(any(feature = "xyz", feature = "xyonly"))]
+pub(crate) mod divisor;
 pub(crate) mod half;
 pub(crate) mod sanitize;
 pub(crate) mod sign;

@@ -8,14 +8,26 @@ use super::{
 };
 
 /// x, y and z in as many bits, x in the low ones.
-pub(super) struct Snorm(pub(super) [u32; 3]);
+pub(super) struct Snorm {
+    bits: [u32; 3],
+    /// What stands for zero in a field without sign; two's complement if that is 0.
+    zero: i64,
+}
 
 impl Snorm {
+    pub(super) fn new(bits: [u32; 3]) -> Self {
+        Snorm { bits, zero: 0 }
+    }
+    /// Three bytes of which 128 is zero.
+    pub(super) fn around_128() -> Self {
+        Snorm { bits: [8; 3], zero: 128 }
+    }
+
     fn steps(&self) -> [i64; 3] {
-        self.0.map(snorm_steps)
+        self.bits.map(snorm_steps)
     }
     fn shifts(&self) -> [u32; 3] {
-        [0, self.0[0], self.0[0] + self.0[1]]
+        [0, self.bits[0], self.bits[0] + self.bits[1]]
     }
     fn values(&self, params: Params<i64>) -> [f64; 3] {
         std::array::from_fn(|i| params[i] as f64 / self.steps()[i] as f64)
@@ -36,12 +48,17 @@ impl Representation for Snorm {
         if params == [0; 3] { [0.0, 0.0, 1.0] } else { normalize(self.values(params)) }
     }
     fn pack(&self, params: Params<i64>) -> u128 {
-        let field = |i: usize| (params[i] as u128 & ((1 << self.0[i]) - 1)) << self.shifts()[i];
-        field(0) | field(1) | field(2)
+        let field = |i: usize| (params[i] + self.zero) as u128 & ((1 << self.bits[i]) - 1);
+        (0..3).map(|i| field(i) << self.shifts()[i]).sum()
     }
     fn unpack(&self, code: u128) -> Params<i64> {
         std::array::from_fn(|i| {
-            signed_field(code, self.shifts()[i], self.0[i]).max(-self.steps()[i])
+            let (shift, bits) = (self.shifts()[i], self.bits[i]);
+            let field = match self.zero {
+                0 => signed_field(code, shift, bits),
+                zero => unsigned_field(code, shift, bits) - zero,
+            };
+            field.max(-self.steps()[i])
         })
     }
     /// Of the multiples of one tuple, the one whose length is nearest to 1.
@@ -139,7 +156,7 @@ impl Representation for Unorm {
     }
 }
 
-fn greatest_common_divisor(a: i64, b: i64) -> i64 {
+pub(super) fn greatest_common_divisor(a: i64, b: i64) -> i64 {
     if b == 0 { a.abs() } else { greatest_common_divisor(b, a % b) }
 }
 

@@ -225,13 +225,16 @@ pub fn find(name: &str) -> Option<Oracle> {
         ("fibonacci", 1..) => (size, Box::new(Fibonacci { points: 1 << size })),
         ("spherical", 1..) => (size, Box::new(Spherical::new(pair(Kind::Snorm)))),
         ("HemiOct", 1..) => (size, Box::new(HemiOct(pair(Kind::Snorm)))),
-        ("XYOnly", 1..) => (size, Box::new(XyOnly(Component::Unorm(pair(Kind::Unorm))))),
-        ("XYOnly32F", 0) => (32, Box::new(XyOnly(Component::Half))),
-        ("snorm5x", 3) => (15, Box::new(Snorm([5, 5, 5]))),
-        ("snorm8x", 3) => (24, Box::new(Snorm([8, 8, 8]))),
-        ("snorm10x", 3) => (30, Box::new(Snorm([10, 10, 10]))),
-        ("snorm11-11-", 10) => (32, Box::new(Snorm([11, 11, 10]))),
-        ("snorm16x", 3) => (48, Box::new(Snorm([16, 16, 16]))),
+        ("XYOnly", 1..) => (size, Box::new(XyOnly::kept(Component::Steps(pair(Kind::Unorm))))),
+        ("XYOnly32F", 0) => (32, Box::new(XyOnly::kept(Component::Half))),
+        ("XYOnly-normalized", 16) => (16, Box::new(XyOnly::normalized(pair(Kind::Unorm)))),
+        ("XYOnly-snorm", 16) => (16, Box::new(XyOnly::normalized(pair(Kind::Snorm)))),
+        ("XYOnly-biased", 16) => (16, Box::new(XyOnly::normalized(pair(Kind::Around128)))),
+        ("snorm5x", 3) => (15, Box::new(Snorm::new([5, 5, 5]))),
+        ("snorm8x", 3) => (24, Box::new(Snorm::new([8, 8, 8]))),
+        ("snorm10x", 3) => (30, Box::new(Snorm::new([10, 10, 10]))),
+        ("snorm11-11-", 10) => (32, Box::new(Snorm::new([11, 11, 10]))),
+        ("snorm16x", 3) => (48, Box::new(Snorm::new([16, 16, 16]))),
         ("float16x", 3) => (48, Box::new(Float16)),
         ("float32x", 3) => (96, Box::new(Float32)),
         ("latlong", 1..) => (size, Box::new(LatLong::new(size))),
@@ -241,6 +244,7 @@ pub fn find(name: &str) -> Option<Oracle> {
         ("octant", 16) => (16, Box::new(Octant)),
         ("icosphere", 162) => (8, Box::new(Icosphere::new())),
         ("xyz-unorm8x", 3) => (24, Box::new(Unorm(8))),
+        ("xyz-biased8x", 3) => (24, Box::new(Snorm::around_128())),
         ("xyz-unorm16x", 3) => (48, Box::new(Unorm(16))),
         ("CrytekBFN", 24) => (24, Box::new(BestFit(Unorm(8)))),
         ("phi-z-unorm8x", 2) => (16, Box::new(PhiZ::new(8))),
@@ -302,13 +306,15 @@ enum Kind {
     /// Snorm with fewer steps, a multiple of six.
     Sixes,
     Unorm,
+    /// Snorm bytes, as unsigned ones of which 128 is zero.
+    Around128,
 }
 
 impl Pair {
     /// Steps from 0 to 1.
     fn steps(self) -> i64 {
         match self.kind {
-            Kind::Snorm => snorm_steps(self.bits),
+            Kind::Snorm | Kind::Around128 => snorm_steps(self.bits),
             Kind::Sixes => snorm_steps(self.bits) / 6 * 6,
             Kind::Unorm => (1 << self.bits) - 1,
         }
@@ -317,7 +323,7 @@ impl Pair {
     /// The place of a number from -1 to 1, in steps.
     fn position(self, t: f64) -> f64 {
         match self.kind {
-            Kind::Snorm | Kind::Sixes => t * self.steps() as f64,
+            Kind::Snorm | Kind::Sixes | Kind::Around128 => t * self.steps() as f64,
             Kind::Unorm => (t + 1.0) / 2.0 * self.steps() as f64,
         }
     }
@@ -326,7 +332,7 @@ impl Pair {
     fn value(self, param: i64) -> f64 {
         let steps = self.steps();
         match self.kind {
-            Kind::Snorm | Kind::Sixes => param as f64 / steps as f64,
+            Kind::Snorm | Kind::Sixes | Kind::Around128 => param as f64 / steps as f64,
             // The numerator is whole, so that values are symmetric about 0.
             Kind::Unorm => (2 * param - steps) as f64 / steps as f64,
         }
@@ -335,7 +341,7 @@ impl Pair {
     /// The parameter of the same magnitude, not negative.
     fn magnitude(self, param: i64) -> i64 {
         match self.kind {
-            Kind::Snorm | Kind::Sixes => param.abs(),
+            Kind::Snorm | Kind::Sixes | Kind::Around128 => param.abs(),
             Kind::Unorm => param.max(self.steps() - param),
         }
     }
@@ -353,7 +359,8 @@ impl Pair {
             let rgb = [u >> 4, (u & 15) << 4 | v >> 8, v & 255];
             rgb.iter().rev().fold(0, |code, &byte| code << 8 | byte as u128)
         } else {
-            let field = |p: i64| p as u128 & ((1 << self.bits) - 1);
+            let zero = if self.kind == Kind::Around128 { 128 } else { 0 };
+            let field = |p: i64| (p + zero) as u128 & ((1 << self.bits) - 1);
             field(u) | field(v) << self.bits
         }
     }
@@ -363,6 +370,8 @@ impl Pair {
             let [r, g, b] = [0, 8, 16].map(|shift| unsigned_field(code, shift, 8));
             let bias = if self.kind == Kind::Unorm { 0 } else { 2047 };
             [(r << 4 | g >> 4) - bias, ((g & 15) << 8 | b) - bias]
+        } else if self.kind == Kind::Around128 {
+            [0, 8].map(|shift| unsigned_field(code, shift, 8) - 128)
         } else if self.kind != Kind::Unorm {
             [signed_field(code, 0, self.bits), signed_field(code, self.bits, self.bits)]
         } else {
