@@ -56,8 +56,12 @@ use formula::{Rotation, RotationKernels};
 use smallest_three::SmallestThree;
 use tan_three::TanThree;
 
+pub use format::QuaternionFormat;
+
 mod chart;
+mod format;
 mod formula;
+mod plain;
 mod smallest_three;
 mod tan_three;
 
@@ -93,6 +97,12 @@ impl Soa4<'_> {
         let Soa4 { x, y, z, w } = self;
         LengthMismatch::check_quaternions([x.len(), y.len(), z.len(), w.len()], codes)
     }
+    #[inline]
+    fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
+        let Soa4 { x, y, z, w } = self;
+        let lengths = [x.len(), y.len(), z.len(), w.len()];
+        LengthMismatch::check_quaternion_bytes(lengths, bytes, code_size)
+    }
 }
 
 impl Soa4Mut<'_> {
@@ -100,6 +110,12 @@ impl Soa4Mut<'_> {
     fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
         let Soa4Mut { x, y, z, w } = self;
         LengthMismatch::check_quaternions([x.len(), y.len(), z.len(), w.len()], codes)
+    }
+    #[inline]
+    fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
+        let Soa4Mut { x, y, z, w } = self;
+        let lengths = [x.len(), y.len(), z.len(), w.len()];
+        LengthMismatch::check_quaternion_bytes(lengths, bytes, code_size)
     }
 }
 

@@ -10,8 +10,10 @@ pub(crate) trait CodeShape: 'static {
 }
 
 /// Codes of at most 32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Word;
 /// Codes of one integer of more than 32 bits: its low and its high half.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Words2;
 /// Codes of three components that need more than 32 bits: a word each.
 pub(crate) struct Words3;

@@ -308,7 +308,7 @@ fn is_about_whole<V: Simd>(steps: V) -> V::Mask {
 
 /// q / |q|.
 #[inline(always)]
-fn normalize<V: Simd>(q: [V; 4]) -> [V; 4] {
+pub(super) fn normalize<V: Simd>(q: [V; 4]) -> [V; 4] {
     let inverse = inv_sqrt(length_squared(q));
     map4!(q, |c| c * inverse)
 }

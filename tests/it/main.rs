@@ -26,6 +26,7 @@ mod oracle_agrees;
 mod packing;
 mod published_errors;
 mod quaternion;
+mod quaternion_formats;
 mod readme;
 mod scalar;
 mod schinko;
