@@ -22,6 +22,7 @@ mod low_dimensions;
 mod max_error;
 mod oracle_agrees;
 mod packing;
+mod padded;
 mod published_errors;
 mod quaternion;
 mod readme;
