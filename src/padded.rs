@@ -57,11 +57,16 @@
 //! What a code or an element is called where vertices are described. "-" means that there is no such format. The last
 //! column has the fields from the low bits of little-endian memory up, or in the order of their addresses.
 //!
-//! A GPU or a reader that unpacks snorm gives the vector before its division by the length, so a shader has to normalize.
-//! Unorm needs `2 * v - 1` before. The octahedral codes need their decoder.
+//! What is read is the vector before its division by the length, so a shader has to normalize it. Unorm needs `2 * v - 1`
+//! before. Octahedral codes need their decoder.
 //!
-//! WebGPU and glTF align vertex attributes to four bytes. A code of two, three or six bytes then has a stride of four or
-//! eight: see [`Strided`].
+//! WebGPU and glTF align attributes to four bytes. Codes of two or three bytes there have a stride of four, and those of
+//! six one of eight: see [`Strided`].
+//!
+//! A normal of glTF is VEC3, and its `byteStride` says that there is a w: 4 with BYTE, and 8 with SHORT. A tangent is VEC4.
+//! Both are BYTE or SHORT by `KHR_mesh_quantization` only. The other types are for attributes of an application.
+//!
+//! Vulkan does not require every device to read vertices of three components of 8 or 16 bits, or of snorm 10-10-10-2.
 //!
 // One row a line: tools/vertex-formats reads them.
 //! | code | `wgpu::VertexFormat` | `VkFormat` | `DXGI_FORMAT` | `MTLVertexFormat` | GL | glTF | fields |
@@ -95,10 +100,8 @@
 //! | [`Oct8`](crate::Oct8) | `Uint8` | `R8_UINT` | `R8_UINT` | `uchar` | `1 UNSIGNED_BYTE` | `SCALAR UNSIGNED_BYTE` | u 4, v 4 |
 //! | [`Oct20`](crate::Oct20) | `Uint32` | `R32_UINT` | `R32_UINT` | `uint` | `1 UNSIGNED_INT` | - | u 10, v 10, 0 12 |
 //!
-//! Every other code of one, two or four bytes is a single integer as in the last two rows: `Uint8`, `Uint16` or `Uint32`.
-//! GL's integers are those of `glVertexAttribIPointer`. glTF gives a normal or a tangent BYTE or SHORT only with
-//! `KHR_mesh_quantization`; anything else is for an attribute of an application. A glTF file has the stride of its
-//! elements in `byteStride`: 4 for VEC3 BYTE, 8 for VEC3 SHORT.
+//! Every other code of one, two or four bytes is a single integer, as in the last two rows: `Uint8`, `Uint16` or `Uint32`.
+//! GL's integers are those of `glVertexAttribIPointer`.
 
 use core::fmt::Debug;
 use core::marker::PhantomData;
@@ -439,8 +442,8 @@ impl Place {
 }
 
 mod sealed {
-    use super::{PaddedCodec, Slot};
     use crate::codec::Codec;
+    use crate::padded::{PaddedCodec, Slot};
 
     /// What [`PaddedCodec`] has for this module alone.
     pub trait Pad: Codec {
