@@ -161,7 +161,7 @@ fn any_elements<C: PaddedCodec>(rng: &mut Rng, len: usize) -> Vec<C::Element> {
 
 /// For so many vectors the nearest codes take longer than everything else here.
 fn too_slow<C: PaddedCodec>() -> usize {
-    if C::FORMAT.code_size() == 6 { 9 } else { 70 }
+    if C::FORMAT.code_size() == 6 { 2 } else { 70 }
 }
 
 fn columns(vectors: &[[f32; 3]]) -> [Vec<f32>; 3] {
