@@ -32,7 +32,7 @@
 //! assert_eq!(bytes[396..], [46, 61, 102, 0]);
 //!
 //! // w carries a material, which stays.
-//! let mut element = [2 << 30];
+//! let mut element = [2u32 << 30];
 //! Unorm10_10_10_2::encode_strided(Strided::of(&normals[..1], 0), W::Keep, StridedMut::of(&mut element, 0))?;
 //! assert_eq!(element[0] >> 30, 2);
 //! # Ok::<(), unitpack::StrideMismatch>(())
@@ -124,7 +124,10 @@ pub struct Padded<C>(PhantomData<C>);
 
 /// `[x, y, z, w]` in snorm bytes: BYTE of glTF.
 pub type Snorm8x4 = Padded<Snorm8x3>;
-/// `[x, y, z, w]` in words, of which x, y and z have 12 bits: what gltfpack writes with `-vn 12`.
+/// `[x, y, z, w]` in words, of which x, y and z have 12 bits: the SHORT that gltfpack writes with `-vn 12`.
+///
+/// x, y and z are from -2047 to 2047. A glTF reader divides them by 32767, which gives the same direction at a sixteenth of
+/// the length. So a shader has to normalize it. w has all its 16 bits, as a reader expects: 32767 is 1.
 pub type Snorm12x4 = Padded<Snorm12x3>;
 /// `[x, y, z, w]` in snorm words: SHORT of glTF.
 pub type Snorm16x4 = Padded<Snorm16x3>;

@@ -75,21 +75,15 @@ macro_rules! codec_table {
     #[cfg(feature = "xyz")]
     "Cartesian: the three components, x in the low bits, as many bits each as the name says; decoding divides by the length. Snorm \
      -M-1 reads as -M, infinite and NaN halves as 65504, (0, 0, 0) as +Z. Of the patterns of one direction the one whose length \
-     is nearest to 1 is canonical; snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction.", mirrors "X Y Z", unstable {
+     is nearest to 1 is canonical; snorm12x3, snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction. \
+     snorm12x3 has each component in a word of 16 bits, of which the upper four repeat the sign and are ignored by decoding.", mirrors "X Y Z", unstable {
         Snorm5x3: u16 = "snorm5x3", 15 bits, 3.299 / 2.707 degrees, exact "±X ±Y ±Z", Xyz::snorm([5, 5, 5]), octant;
         Snorm8x3: [u8; 3] = "snorm8x3", 24 bits, 0.3920 / 0.3203 degrees, exact "±X ±Y ±Z", Xyz::snorm([8, 8, 8]), hot;
         Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, exact "±X ±Y ±Z", Xyz::snorm([10, 10, 10]), hot;
         Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, exact "±X ±Y ±Z", Xyz::snorm([11, 11, 10]);
+        Snorm12x3: [u16; 3] = "snorm12x3", 48 bits, 0.0244 / 0.0199 degrees, exact "±X ±Y ±Z", Xyz16::snorm(12), finer;
         Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Xyz16::snorm(16), finer;
         Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, exact "±X ±Y ±Z", Xyz16::halves(), finer;
-    }
-    #[cfg(feature = "xyz")]
-    "Cartesian: three snorm components of 12 bits, each in a word of 16 whose upper four bits repeat the sign, as gltfpack \
-     writes SHORT with `-vn 12`. Decoding ignores these four bits, and divides by the length. A glTF reader divides each word by 32767, and so \
-     has the same direction at a sixteenth of the length: a shader has to normalize it. Snorm -2048 reads as -2047, (0, 0, 0) as +Z. Of the \
-     patterns of one direction the one whose length is nearest to 1 is canonical; it is finer than `f32`, so what decodes alike is one \
-     direction.", mirrors "X Y Z", unstable {
-        Snorm12x3: [u16; 3] = "snorm12x3", 48 bits, 0.0244 / 0.0199 degrees, exact "±X ±Y ±Z", Xyz16::snorm(12), finer;
     }
     #[cfg(feature = "xyz")]
     "Three `f32`, bit for bit: what is stored is what is given back, of any length, zero and NaN included.", mirrors "X Y Z", stable {
