@@ -21,6 +21,8 @@ mod formula;
 pub mod frame;
 pub mod low_dimensions;
 pub mod packing;
+#[cfg(feature = "xyz")]
+pub mod padded;
 #[cfg(feature = "quaternion")]
 pub mod quaternion;
 pub mod scalar;

@@ -96,7 +96,7 @@ impl<'a> Strided<'a> {
 
     /// The bytes from the first element to the last, which have `size` bytes each.
     #[inline]
-    fn elements(self, size: usize) -> Result<&'a [u8], StrideMismatch> {
+    pub(crate) fn elements(self, size: usize) -> Result<&'a [u8], StrideMismatch> {
         let Strided { bytes, offset, stride, len } = self;
         let range = range(bytes.len(), [offset, stride, len, size])?;
         Ok(bytes.get(range).unwrap_or_default())
@@ -164,7 +164,7 @@ impl<'a> StridedMut<'a> {
 
     /// See [`Strided::elements`].
     #[inline]
-    fn elements(self, size: usize) -> Result<&'a mut [u8], StrideMismatch> {
+    pub(crate) fn elements(self, size: usize) -> Result<&'a mut [u8], StrideMismatch> {
         let StridedMut { bytes, offset, stride, len } = self;
         let range = range(bytes.len(), [offset, stride, len, size])?;
         Ok(bytes.get_mut(range).unwrap_or_default())

@@ -3,27 +3,9 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use unitpack_fuzz::{Bytes, Subject};
+use unitpack_fuzz::{Bytes, Subject, choose_elements, lie_in};
 use unitpack_test::vectors::bits;
 use unitpack_test::{Effort, Elements};
-
-fn choose(bytes: &mut Bytes<'_>, size: usize) -> Elements {
-    let mut number = |near: usize| match bytes.byte() {
-        0 => usize::MAX,
-        1 => usize::MAX / 2,
-        2 => 1 << (usize::BITS / 2),
-        byte => near + usize::from(byte % 8),
-    };
-    let [offset, stride, len] = [number(0), number(size - 1), number(0)];
-    Elements { offset, stride, len: if len < 8 { 3 * len } else { len } }
-}
-
-/// Whether they lie in so many bytes, in more bits than sizes have.
-fn lie_in(elements: Elements, size: usize, bytes: usize) -> bool {
-    let Elements { offset, stride, len } = elements;
-    let [offset, stride, len, size, bytes] = [offset, stride, len, size, bytes].map(|n| n as u128);
-    len == 0 || stride >= size && (offset + (len - 1) * stride + size <= bytes)
-}
 
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
@@ -31,8 +13,8 @@ fuzz_target!(|data: &[u8]| {
     let format = codec.format;
     let size = format.code_size();
     let effort = if bytes.byte() % 8 == 0 { Effort::Precise } else { Effort::Fast };
-    let vectors = choose(&mut bytes, 12);
-    let mut codes = choose(&mut bytes, size);
+    let vectors = choose_elements(&mut bytes, 12);
+    let mut codes = choose_elements(&mut bytes, size);
     if bytes.byte() % 8 != 0 {
         codes.len = vectors.len;
     }

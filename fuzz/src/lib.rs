@@ -8,7 +8,7 @@ use unitpack::{Format, Soa, SoaMut};
 use unitpack_test::codes::last_pattern;
 use unitpack_test::oracle::{Oracle, oracle};
 use unitpack_test::vectors::bits;
-use unitpack_test::{AnyCodec, Code, Transcode, Typed, UNWRITTEN, Vector, transcodes};
+use unitpack_test::{AnyCodec, Code, Elements, Transcode, Typed, UNWRITTEN, Vector, transcodes};
 
 /// Angle that is put down to the rounding of f32, in radians.
 pub const ROUNDING: f64 = 3e-7;
@@ -61,6 +61,25 @@ impl Bytes<'_> {
         given.resize(given.len().max(1), [0x3F; N]);
         (0..count).map(|i| item(given[i % given.len()], i / given.len())).collect()
     }
+}
+
+/// Elements of `size` bytes: mostly near, some where sizes overflow.
+pub fn choose_elements(bytes: &mut Bytes<'_>, size: usize) -> Elements {
+    let mut number = |near: usize| match bytes.byte() {
+        0 => usize::MAX,
+        1 => usize::MAX / 2,
+        2 => 1 << (usize::BITS / 2),
+        byte => near + usize::from(byte % 8),
+    };
+    let [offset, stride, len] = [number(0), number(size - 1), number(0)];
+    Elements { offset, stride, len: if len < 8 { 3 * len } else { len } }
+}
+
+/// Whether they lie in so many bytes, in more bits than sizes have.
+pub fn lie_in(elements: Elements, size: usize, bytes: usize) -> bool {
+    let Elements { offset, stride, len } = elements;
+    let [offset, stride, len, size, bytes] = [offset, stride, len, size, bytes].map(|n| n as u128);
+    len == 0 || stride >= size && (offset + (len - 1) * stride + size <= bytes)
 }
 
 /// Frames as a structure of arrays: normals, tangents and handednesses.

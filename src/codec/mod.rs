@@ -82,7 +82,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
 
     /// The code that encoders emit for the direction of `code`, any bit pattern: of several that mean
     /// one direction the same. It is `encode_precise(decode(code))`, found without decoding but in
-    /// `Snorm16x3`, `XyzUnorm16x3` and `Float16x3`, where it takes as long as encoding.
+    /// `Snorm12x3`, `Snorm16x3`, `XyzUnorm16x3` and `Float16x3`, where it takes as long as encoding.
     ///
     /// ```
     /// use unitpack::{Codec, Oct16};

@@ -76,12 +76,14 @@ macro_rules! codec_table {
     #[cfg(feature = "xyz")]
     "Cartesian: the three components, x in the low bits, as many bits each as the name says; decoding divides by the length. Snorm \
      -M-1 reads as -M, infinite and NaN halves as 65504, (0, 0, 0) as +Z. Of the patterns of one direction the one whose length \
-     is nearest to 1 is canonical; snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction.", mirrors "X Y Z", unstable, none HighestBit {
+     is nearest to 1 is canonical; snorm12x3, snorm16x3 and float16x3 are finer than `f32`, so there what decodes alike is one direction. \
+     snorm12x3 has each component in a word of 16 bits, of which the upper four repeat the sign and are ignored by decoding.", mirrors "X Y Z", unstable, none HighestBit {
         Snorm5x3: u16 = "snorm5x3", 15 bits, 3.299 / 2.707 degrees, exact "±X ±Y ±Z", Xyz::snorm([5, 5, 5]), octant;
         Snorm8x3: [u8; 3] = "snorm8x3", 24 bits, 0.3920 / 0.3203 degrees, exact "±X ±Y ±Z", Xyz::snorm([8, 8, 8]), hot;
         Snorm10x3: u32 = "snorm10x3", 30 bits, 0.09747 / 0.07960 degrees, exact "±X ±Y ±Z", Xyz::snorm([10, 10, 10]), hot;
         Snorm11_11_10: u32 = "snorm11-11-10", 32 bits, 0.06889 / 0.06292 degrees, exact "±X ±Y ±Z", Xyz::snorm([11, 11, 10]);
-        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Xyz16::snorm(), finer;
+        Snorm12x3: [u16; 3] = "snorm12x3", 48 bits, 0.0244 / 0.0199 degrees, exact "±X ±Y ±Z", Xyz16::snorm(12), finer;
+        Snorm16x3: [u16; 3] = "snorm16x3", 48 bits, 0.00153 / 0.00124 degrees, exact "±X ±Y ±Z", Xyz16::snorm(16), finer;
         Float16x3: [u16; 3] = "float16x3", 48 bits, 0.0240 / 0.00766 degrees, exact "±X ±Y ±Z", Xyz16::halves(), finer;
     }
     #[cfg(feature = "xyz")]
@@ -299,6 +301,7 @@ macro_rules! codec_table {
      (128, 128, 255) is 0.318 degrees off +Z. [`XyzBiased8x3`] has 128 for zero. xyz-unorm16x3 is finer \
      than `f32`, so there what decodes alike is one direction.", mirrors "X Y Z", unstable, none AllBits {
         XyzUnorm8x3: [u8; 3] = "xyz-unorm8x3", 24 bits, 0.3898 / 0.3191 degrees, exact "", Xyz::unorm(8), hot;
+        XyzUnorm10x3: u32 = "xyz-unorm10x3", 30 bits, 0.09720 / 0.07957 degrees, exact "", Xyz::unorm(10);
         XyzUnorm16x3: [u16; 3] = "xyz-unorm16x3", 48 bits, 0.001528 / 0.001245 degrees, exact "", Xyz16::unorm(), finer;
     }
     #[cfg(feature = "xyz")]

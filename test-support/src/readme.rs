@@ -118,7 +118,8 @@ fn families() -> Vec<Vec<Format>> {
 
 /// "4 to 32", "8 to 32, even", or one by one.
 fn sizes(family: &[Format]) -> String {
-    let bits: Vec<_> = family.iter().map(|f| f.bits()).collect();
+    let mut bits: Vec<_> = family.iter().map(|f| f.bits()).collect();
+    bits.dedup();
     let in_steps_of =
         |step| bits.len() > 4 && bits.windows(2).all(|pair| pair[1] - pair[0] == step);
     let range = || format!("{} to {}", bits[0], bits[bits.len() - 1]);

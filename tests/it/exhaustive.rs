@@ -132,7 +132,7 @@ fn check_wide(format: Format, codes: &[Code]) -> Result<(), String> {
 fn some_codes_of_more_bits() {
     let wide = formats().filter(|f| f.bits() > 32);
     let tasks: Vec<_> = wide.flat_map(|f| (0..8).map(move |seed| (f, seed))).collect();
-    assert_eq!(tasks.len(), 3 * 8);
+    assert_eq!(tasks.len(), 4 * 8);
     check_all(&tasks, |&(format, seed)| {
         // The precise encoder is slow.
         check_wide(format, &random_codes(format, seed, 2_500))

@@ -24,6 +24,7 @@ mod max_error;
 mod or_none;
 mod oracle_agrees;
 mod packing;
+mod padded;
 mod published_errors;
 mod quaternion;
 mod quaternion_formats;

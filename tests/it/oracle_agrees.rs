@@ -96,7 +96,7 @@ fn fast_encoding_agrees() {
 fn nearest_count(format: Format) -> usize {
     match format.name() {
         "snorm16x3" | "xyz-unorm16x3" => 400,
-        "float16x3" => 2_000,
+        "float16x3" | "snorm12x3" => 2_000,
         "snorm8x3" => 100_000,
         // Each with every code.
         _ if format.bits() <= 16 => 1_000,

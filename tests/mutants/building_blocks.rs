@@ -1,6 +1,8 @@
-//! Kills mutants of the building blocks: scalars, packing, low dimensions, decode tables, and the
-//! loops over arrays of structures and from codec to codec.
+//! Kills mutants of the building blocks: scalars, packing, padded elements, low dimensions, decode
+//! tables, and the loops over arrays of structures and from codec to codec.
 
+#[path = "../it/padded.rs"]
+mod padded;
 mod support;
 
 use std::fmt::Debug;

@@ -225,7 +225,7 @@ impl Grid for Steps {
     }
 }
 
-/// 16 bits each, in words of their own.
+/// Up to 16 bits each, in words of their own.
 #[derive(Clone, Copy)]
 pub(crate) enum Fine {
     Steps(Steps),

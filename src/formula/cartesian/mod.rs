@@ -13,7 +13,7 @@
 //!
 //! Canonical: of the patterns of one direction, such as (1, 1, 0) and (90, 90, 0), the one whose
 //! length is nearest to 1. That is the one rounding gives. On the grids that are finer than f32,
-//! snorm16x3 and float16x3, those that decode alike count as one. Axes survive exactly. In snorm,
+//! snorm12x3, snorm16x3 and float16x3, those that decode alike count as one. Axes survive exactly. In snorm,
 //! -M-1 reads as -M; in halves, infinities and NaN read as 65504.
 //!
 //! Biased snorm, (c - 128) / 127 in bytes, has the points of snorm in offset binary, as textures of unsigned
@@ -46,7 +46,7 @@ pub(crate) struct Cartesian<G>(G);
 
 /// Snorm or scaled and biased unorm, in one word.
 pub(crate) type Xyz = Cartesian<Steps>;
-/// Snorm, scaled and biased unorm or halves, of 16 bits each.
+/// Snorm, scaled and biased unorm or halves, in a word of 16 bits each.
 pub(crate) type Xyz16 = Cartesian<Fine>;
 
 impl Xyz {
@@ -73,9 +73,10 @@ impl Xyz {
 }
 
 impl Xyz16 {
+    /// Snorm with `bits` bits for each, the sign repeated in those above.
     #[inline]
-    pub(crate) const fn snorm() -> Self {
-        Cartesian(Fine::Steps(Steps::snorm([16; 3])))
+    pub(crate) const fn snorm(bits: u32) -> Self {
+        Cartesian(Fine::Steps(Steps::snorm([bits; 3])))
     }
 
     pub(crate) const fn unorm() -> Self {
@@ -182,7 +183,8 @@ mod tests {
     const SNORM11_10: Xyz = Xyz::snorm([11, 11, 10]);
     const UNORM8: Xyz = Xyz::unorm(8);
     const BIASED8: Xyz = Xyz::biased(8);
-    const SNORM16: Xyz16 = Xyz16::snorm();
+    const SNORM16: Xyz16 = Xyz16::snorm(16);
+    const SNORM12: Xyz16 = Xyz16::snorm(12);
     const HALVES: Xyz16 = Xyz16::halves();
 
     fn canonical(formula: Xyz, code: i32) -> i32 {
@@ -211,6 +213,9 @@ mod tests {
         assert_eq!(SNORM16.encode(w).map(|c| c.0), [19_660, 20_971, 15_728]);
         // 0.5 (1 + 205/1024), 0.5 (1 + 287/1024) and 0.25 (1 + 942/1024).
         assert_eq!(HALVES.encode(w).map(|c| c.0), [0x38CD, 0x391F, 0x37AE]);
+        // 2047 w = (1228.2, 1310.1, 982.6), and a negative one has its sign in all bits above.
+        assert_eq!(SNORM12.encode(w).map(|c| c.0), [1228, 1310, 983]);
+        assert_eq!(SNORM12.encode(-w).map(|c| c.0 & 0xFFFF), [0xFB34, 0xFAE2, 0xFC29]);
     }
 
     #[test]
@@ -279,6 +284,8 @@ mod tests {
         assert_eq!(canonical(BIASED8, 0x80_8000), 0x80_8001);
         assert_eq!(canonical(SNORM11_10, 0x200 << 22), 0x201 << 22);
         assert_eq!(canonical16(SNORM16, [0x8000, 0, 0]), [0x8001, 0, 0]);
+        // What is above the 12 bits does not count, and -2048 is -2047.
+        assert_eq!(canonical16(SNORM12, [0x1800, 0xF000, 0x8000]), [0xF801, 0, 0]);
         // Infinity, NaN and 65504 are one number.
         let v = HALVES.decode::<f32>([0x7C00, 0xFE00, 0x7BFF].map(I32x1));
         assert!(v.x == v.z && v.x == -v.y);

@@ -92,6 +92,38 @@ impl Representation for Snorm {
     }
 }
 
+/// The fields of [`Snorm`], each sign-extended to a word of 16 bits. What is above a field does not count.
+pub(super) struct InWords(pub(super) Snorm);
+
+impl Representation for InWords {
+    fn params(&self, v: [f64; 3]) -> Params<f64> {
+        self.0.params(v)
+    }
+    fn params_error(&self) -> f64 {
+        self.0.params_error()
+    }
+    fn range(&self) -> Params<(i64, i64)> {
+        self.0.range()
+    }
+    fn vector(&self, params: Params<i64>) -> [f64; 3] {
+        self.0.vector(params)
+    }
+    fn pack(&self, params: Params<i64>) -> u128 {
+        let [x, y, z] = params.map(|p| u128::from(p as u16));
+        x | y << 16 | z << 32
+    }
+    fn unpack(&self, code: u128) -> Params<i64> {
+        let steps = self.0.steps();
+        std::array::from_fn(|i| signed_field(code, 16 * i as u32, self.0.bits[i]).max(-steps[i]))
+    }
+    fn canonical(&self, params: Params<i64>) -> Params<i64> {
+        self.0.canonical(params)
+    }
+    fn nearby(&self, v: [f64; 3], cell: f64) -> Vec<Params<i64>> {
+        self.0.nearby(v, cell)
+    }
+}
+
 /// x, y and z as biased unorm of this many bits, x in the low ones. Parameters count the values up
 /// from -1, in odd multiples of 1 / steps.
 pub(super) struct Unorm(pub(super) u32);

@@ -27,7 +27,7 @@ mod xy_only;
 use std::f64::consts::PI;
 
 use crate::vectors::{chord_squared, cross, length, normalize};
-use cartesian::{BestFit, Float16, Float32, Snorm, Unorm};
+use cartesian::{BestFit, Float16, Float32, InWords, Snorm, Unorm};
 use cube::{AngularCube, Cube};
 use disk::{Disk, Projection, Stretch};
 use fibonacci::Fibonacci;
@@ -234,6 +234,7 @@ pub fn find(name: &str) -> Option<Oracle> {
         ("snorm8x", 3) => (24, Box::new(Snorm::new([8, 8, 8]))),
         ("snorm10x", 3) => (30, Box::new(Snorm::new([10, 10, 10]))),
         ("snorm11-11-", 10) => (32, Box::new(Snorm::new([11, 11, 10]))),
+        ("snorm12x", 3) => (48, Box::new(InWords(Snorm::new([12, 12, 12])))),
         ("snorm16x", 3) => (48, Box::new(Snorm::new([16, 16, 16]))),
         ("float16x", 3) => (48, Box::new(Float16)),
         ("float32x", 3) => (96, Box::new(Float32)),
@@ -245,6 +246,7 @@ pub fn find(name: &str) -> Option<Oracle> {
         ("icosphere", 162) => (8, Box::new(Icosphere::new())),
         ("xyz-unorm8x", 3) => (24, Box::new(Unorm(8))),
         ("xyz-biased8x", 3) => (24, Box::new(Snorm::around_128())),
+        ("xyz-unorm10x", 3) => (30, Box::new(Unorm(10))),
         ("xyz-unorm16x", 3) => (48, Box::new(Unorm(16))),
         ("CrytekBFN", 24) => (24, Box::new(BestFit(Unorm(8)))),
         ("phi-z-unorm8x", 2) => (16, Box::new(PhiZ::new(8))),

@@ -3,8 +3,10 @@
 use core::array;
 
 use bytemuck::{Zeroable, bytes_of, bytes_of_mut};
+use unitpack::padded::{Padded, PaddedCodec, W};
 use unitpack::{
-    Axis, Codec, Format, LengthMismatch, Soa, SoaMut, Strided, StridedMut, Visitor, for_each_codec,
+    Axis, Codec, Float16x3, Format, LengthMismatch, Snorm8x3, Snorm10x3, Snorm12x3, Snorm16x3, Soa,
+    SoaMut, Strided, StridedMut, Visitor, XyzUnorm8x3, XyzUnorm10x3, XyzUnorm16x3, for_each_codec,
 };
 
 use crate::LEN;
@@ -45,6 +47,7 @@ pub fn report() {
         ));
     }
     strides();
+    padded();
 }
 
 /// One line for all formats: vectors and codes at strides, of which none is aligned, and back in place.
@@ -101,6 +104,56 @@ fn doubles() {
         digest_codes(format, codes, &mut precise);
     }
     line(format_args!("{:20} {:016x} {:016x}", "doubles", fast.finish(), precise.finish()));
+}
+
+/// One line for all elements with a fourth component: normals that keep it, and tangents.
+fn padded() {
+    let mut digests = [Digest::new(), Digest::new(), Digest::new()];
+    padded_of::<Snorm8x3>(&mut digests);
+    padded_of::<Snorm12x3>(&mut digests);
+    padded_of::<Snorm16x3>(&mut digests);
+    padded_of::<Float16x3>(&mut digests);
+    padded_of::<XyzUnorm8x3>(&mut digests);
+    padded_of::<XyzUnorm16x3>(&mut digests);
+    padded_of::<XyzUnorm10x3>(&mut digests);
+    padded_of::<Snorm10x3>(&mut digests);
+    let [normals, tangents, decode] = digests.map(Digest::finish);
+    line(format_args!("{:20} {normals:016x} {tangents:016x} {decode:016x}", "padded"));
+}
+
+fn padded_of<C: PaddedCodec>([normals, tangents, decode]: &mut [Digest; 3]) {
+    let size = size_of::<C::Element>();
+    let single = C::FORMAT.visit(One).decode;
+    let mut random = Random::new();
+    let vectors: [[f32; 4]; LEN] = array::from_fn(|i| {
+        let [x, y, z] = random.vector(C::FORMAT.code_size(), C::FORMAT.bits(), single);
+        [x, y, z, [1.0, -1.0, 0.0, f32::NAN, -0.5][i % 5]]
+    });
+    let mut patterns = [0; 8 * LEN];
+    random.codes(size, &mut patterns[..size * LEN]);
+    let mut elements: [C::Element; LEN] = array::from_fn(|i| {
+        let mut element = C::Element::zeroed();
+        let bytes = bytes_of_mut(&mut element);
+        bytes.copy_from_slice(&patterns[size * i..size * (i + 1)]);
+        swap_to_little_endian::<C::Element>(bytes);
+        element
+    });
+    let mut decoded = [[0.0; 4]; LEN];
+    Padded::<C>::decode_tangents_aos(&elements, &mut decoded).expect("lengths that fit");
+    decode.floats(decoded.as_flattened());
+    let to = StridedMut::of(&mut elements, 0);
+    Padded::<C>::encode_strided(Strided::of(&vectors, 0), W::Keep, to).expect("elements that fit");
+    digest_elements::<C>(&elements, normals);
+    Padded::<C>::encode_tangents_aos(&vectors, &mut elements).expect("lengths that fit");
+    digest_elements::<C>(&elements, tangents);
+}
+
+fn digest_elements<C: PaddedCodec>(elements: &[C::Element], digest: &mut Digest) {
+    for &(mut element) in elements {
+        let bytes = bytes_of_mut(&mut element);
+        swap_to_little_endian::<C::Element>(bytes);
+        digest.bytes(bytes);
+    }
 }
 
 /// A codec's functions of one vector, over the little-endian bytes of a code.

@@ -29,6 +29,7 @@ use unitpack::frame::{
 };
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
+use unitpack::padded::{Padded, PaddedCodec, W};
 use unitpack::quaternion::*;
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::*;
@@ -149,6 +150,52 @@ fn strided<const N: usize>(bytes: &mut [u8; N]) -> Strided<'_> {
 fn strided_mut<const N: usize>(bytes: &mut [u8; N]) -> StridedMut<'_> {
     let [offset, stride, len] = black_box([1, 20, LEN]);
     StridedMut { bytes: opaque(bytes), offset, stride, len }
+}
+
+/// All entry points of elements with a code of one codec.
+fn padded<C: PaddedCodec>() {
+    let element = black_box(C::Element::zeroed());
+    let (v, tangent) = (black_box([0.0, 0.6, 0.8]), black_box([0.0, 0.6, 0.8, -1.0]));
+    black_box(Padded::<C>::encode(v, black_box(W::One)));
+    black_box(Padded::<C>::encode_precise(v, black_box(W::One)));
+    black_box(Padded::<C>::decode(element));
+    black_box(Padded::<C>::encode_tangent(tangent));
+    black_box(Padded::<C>::encode_tangent_precise(tangent));
+    black_box(Padded::<C>::decode_tangent(element));
+
+    let w = black_box(W::Keep);
+    let mut buffers = Buffers::new();
+    let elements = &mut [C::Element::zeroed(); LEN];
+    let elements = opaque(elements);
+    black_box(Padded::<C>::encode_soa(buffers.read(), w, elements).is_ok());
+    black_box(Padded::<C>::encode_soa_precise(buffers.read(), w, elements).is_ok());
+    black_box(Padded::<C>::decode_soa(elements, buffers.write()).is_ok());
+    let tangents = &mut [[0.5; 4]; LEN];
+    let tangents = opaque(tangents);
+    black_box(Padded::<C>::encode_tangents_aos(tangents, elements).is_ok());
+    black_box(Padded::<C>::encode_tangents_aos_precise(tangents, elements).is_ok());
+    black_box(Padded::<C>::decode_tangents_aos(elements, tangents).is_ok());
+
+    let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+    black_box(Padded::<C>::encode_strided(strided(a), w, strided_mut(b)).is_ok());
+    black_box(Padded::<C>::encode_strided_precise(strided(a), w, strided_mut(b)).is_ok());
+    black_box(Padded::<C>::decode_strided(strided(a), strided_mut(b)).is_ok());
+    black_box(Padded::<C>::encode_tangents_strided(strided(a), strided_mut(b)).is_ok());
+    black_box(Padded::<C>::encode_tangents_strided_precise(strided(a), strided_mut(b)).is_ok());
+    black_box(Padded::<C>::decode_tangents_strided(strided(a), strided_mut(b)).is_ok());
+}
+
+fn all_padded() {
+    padded::<Snorm8x3>();
+    padded::<Snorm10x3>();
+    padded::<Snorm12x3>();
+    padded::<Snorm16x3>();
+    padded::<Float16x3>();
+    padded::<XyzUnorm8x3>();
+    padded::<XyzUnorm10x3>();
+    padded::<XyzUnorm16x3>();
+    derived::<W>(black_box(W::Keep));
+    W::Keep.hash(&mut Sink);
 }
 
 fn all_of<T>(elements: impl ExactSizeIterator<Item = T>) {
@@ -598,6 +645,7 @@ fn all() {
     }
     errors();
     axis_order();
+    all_padded();
     all_scalars();
     packing();
     all_dense();

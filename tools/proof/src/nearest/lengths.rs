@@ -17,10 +17,11 @@ trait Grid: Sync {
     fn bits(x: f64) -> Option<u16>;
 }
 
-struct Snorm;
+/// Integers up to this.
+struct Snorm<const GREATEST: i64>;
 
-impl Grid for Snorm {
-    const GREATEST: f64 = 32767.0;
+impl<const GREATEST: i64> Grid for Snorm<GREATEST> {
+    const GREATEST: f64 = GREATEST as f64;
     #[inline(always)]
     fn nearest(x: f64) -> f64 {
         round(x)
@@ -98,9 +99,13 @@ pub struct Lengths {
 impl Lengths {
     pub fn of(format: Format) -> Option<Self> {
         match format {
+            Format::Snorm12x3 => {
+                let lengths = (1..=2047).map(f64::from).collect();
+                Some(Lengths { lengths, search: search::<Snorm<2047>> })
+            }
             Format::Snorm16x3 => {
                 let lengths = (1..=32767).map(f64::from).collect();
-                Some(Lengths { lengths, search: search::<Snorm> })
+                Some(Lengths { lengths, search: search::<Snorm<32767>> })
             }
             Format::XyzUnorm16x3 => {
                 let lengths = (1..=65535).step_by(2).map(f64::from).collect();
