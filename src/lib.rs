@@ -27,6 +27,8 @@ pub mod padded;
 pub mod quaternion;
 pub mod scalar;
 mod simd;
+#[cfg(feature = "xyz")]
+mod snorm_format;
 #[cfg(feature = "fibonacci")]
 mod spherical_fibonacci;
 mod vector;
@@ -34,6 +36,8 @@ mod vector;
 pub use batch::code_int::CodeInt;
 pub use codec::*;
 pub use error::{LengthMismatch, StrideMismatch};
+#[cfg(feature = "xyz")]
+pub use snorm_format::SnormFormat;
 #[cfg(feature = "fibonacci")]
 pub use spherical_fibonacci::SphericalFibonacci;
 pub use vector::{Soa, SoaMut, Strided, StridedMut};

@@ -53,6 +53,7 @@ use crate::formula::support::sanitize::sanitize4;
 use crate::vector::{Strided, StridedMut};
 use chart::{OneWord, ThreeWords, TwoWords};
 use formula::{Rotation, RotationKernels};
+use near::{To, decode_near, near};
 use smallest_three::SmallestThree;
 use tan_three::TanThree;
 
@@ -61,6 +62,7 @@ pub use format::QuaternionFormat;
 mod chart;
 mod format;
 mod formula;
+mod near;
 mod plain;
 mod smallest_three;
 mod tan_three;
@@ -168,6 +170,22 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     /// Unpacks a code, any bit pattern, into a quaternion of length 1 to 2.5e-7.
     fn decode(code: Self::Code) -> [f32; 4];
 
+    /// [`decode`](QuaternionCodec::decode), or the opposite if that is nearer to `previous`. q and -q are one rotation, but
+    /// what decoding gives changes its sign where another component becomes the greatest, as in the course of
+    /// a turn. Interpolation must not go from q to -q.
+    ///
+    /// ```
+    /// use unitpack::quaternion::{QuaternionCodec, SmallestThree32};
+    /// let [before, after] = [[0.0, 0.0, 0.72, -0.694], [0.0, 0.0, 0.694, -0.72]].map(SmallestThree32::encode);
+    /// let [a, b] = [before, after].map(SmallestThree32::decode);
+    /// assert!(a[2] > 0.0 && b[2] < 0.0);
+    /// assert!(SmallestThree32::decode_near(after, a)[2] > 0.0);
+    /// ```
+    #[inline]
+    fn decode_near(code: Self::Code, previous: [f32; 4]) -> [f32; 4] {
+        near(Self::decode(code), previous)
+    }
+
     /// The code that encoders emit for the rotation of `code`, any bit pattern: of several that mean
     /// one rotation the same. It is `encode_precise(decode(code))`. In the formats of more than 32 bits, codes
     /// whose unit quaternions are equal in `f32` mean one rotation.
@@ -242,6 +260,34 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     fn decode_aos(codes: &[Self::Code], q: &mut [[f32; 4]]) -> Result<(), LengthMismatch> {
         LengthMismatch::check_aos(q.len(), codes.len())?;
         Self::decode_batch(Codes::native(codes), VectorsMut::rows(q));
+        Ok(())
+    }
+
+    /// [`decode_near`](QuaternionCodec::decode_near) for arrays of structures: each becomes near to the rotation that it
+    /// replaces, as joints of a skeleton from one frame to the next.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
+    fn decode_aos_near(codes: &[Self::Code], q: &mut [[f32; 4]]) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_aos(q.len(), codes.len())?;
+        decode_near(&Self::decode_batch, Codes::native(codes), q, To::Replaced);
+        Ok(())
+    }
+
+    /// [`decode_near`](QuaternionCodec::decode_near) for a track: each becomes near to the one before it, and the first near to
+    /// `previous`.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] if the slices are not equally long; nothing is written then.
+    #[inline]
+    fn decode_track(
+        codes: &[Self::Code],
+        previous: [f32; 4],
+        q: &mut [[f32; 4]],
+    ) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_aos(q.len(), codes.len())?;
+        decode_near(&Self::decode_batch, Codes::native(codes), q, To::Before(previous));
         Ok(())
     }
 

@@ -78,7 +78,7 @@ impl<'a> Codes<'a> {
     }
 
     /// At most `len` codes at a time.
-    pub(super) fn parts(self, len: usize) -> impl Iterator<Item = Self> {
+    pub(crate) fn parts(self, len: usize) -> impl Iterator<Item = Self> {
         self.bytes
             .chunks(len.saturating_mul(self.stride).max(1))
             .map(move |bytes| Codes { bytes, ..self })

@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 
-use crate::simd::Simd;
+use crate::simd::{I32x1, Simd};
 
 /// Number of 32-bit words that hold a code in lanes.
 pub(crate) trait CodeShape: 'static {
@@ -316,6 +316,48 @@ pub(crate) fn from_native<B: CodeBytes, C: Pod>(code: C) -> CodeIn<B, f32> {
     let mut bytes: [B; 1] = bytemuck::cast(code);
     swap_if_big_endian(bytemuck::bytes_of_mut(&mut bytes), align_of::<C>());
     B::load::<f32>(&bytes)
+}
+
+/// A code of at most 64 bits in one lane.
+pub(crate) trait OneLane: Copy {
+    fn from_u64(code: u64) -> Self;
+    fn to_u64(self) -> u64;
+}
+
+impl OneLane for I32x1 {
+    #[inline]
+    fn from_u64(code: u64) -> Self {
+        I32x1(code as i32)
+    }
+    #[inline]
+    fn to_u64(self) -> u64 {
+        u64::from(self.0 as u32)
+    }
+}
+
+/// [`Words2`].
+impl OneLane for [I32x1; 2] {
+    #[inline]
+    fn from_u64(code: u64) -> Self {
+        [I32x1(code as i32), I32x1((code >> 32) as i32)]
+    }
+    #[inline]
+    fn to_u64(self) -> u64 {
+        self[0].to_u64() | self[1].to_u64() << 32
+    }
+}
+
+/// [`Words3`], of 16 bits each.
+impl OneLane for [I32x1; 3] {
+    #[inline]
+    fn from_u64(code: u64) -> Self {
+        [code, code >> 16, code >> 32].map(|word| I32x1((word & 0xFFFF) as i32))
+    }
+    #[inline]
+    fn to_u64(self) -> u64 {
+        let [x, y, z] = self.map(|word| word.to_u64() & 0xFFFF);
+        x | y << 16 | z << 32
+    }
 }
 
 /// Swaps codes between native and little-endian byte order. `element` is the size of the integers

@@ -1,6 +1,9 @@
 //! Defines the types, their `Codec`, and `Format`, from the rows of the table.
 
+use core::ops::RangeInclusive;
+
 use super::format::Visitor;
+use super::parameters::{Kind, TwoParameters};
 use super::sealed::Batch;
 use super::spare::{self, Spare};
 use super::{Axis, Codec, codec_table};
@@ -8,6 +11,7 @@ use crate::batch::doubles::Keeps;
 use crate::batch::storage::{CodeSlice, CodeSliceMut, MAX_CODE, from_native, to_native};
 use crate::formula::names::*;
 use crate::formula::{Formula, Kernels, Source, kernels};
+use crate::simd::I32x1;
 use crate::simd::stream::Fence;
 
 /// The kernels of a row: the codec's own if it is `hot`, and otherwise those of its formula.
@@ -31,6 +35,29 @@ macro_rules! row_kernels {
     };
 }
 
+/// Implements [`TwoParameters`] if codes are two parameters of a kind.
+macro_rules! two_parameters {
+    ($name:ident, $bits:literal, none) => {};
+    ($name:ident, $bits:literal, $pair:ident) => {
+        impl TwoParameters for $name {
+            const RANGE: RangeInclusive<i32> = KIND.range($bits);
+
+            #[inline]
+            fn from_parameters(parameters: [i32; 2]) -> Code {
+                to_native::<Bytes, Code>(I32x1(KIND.pack($bits, parameters) as i32))
+            }
+            #[inline]
+            fn parameters(code: Code) -> [i32; 2] {
+                KIND.unpack($bits, from_native::<Bytes, Code>(code).0 as u32)
+            }
+        }
+        const KIND: Kind = match Kind::of(stringify!($pair)) {
+            Some(kind) => kind,
+            None => panic!("a pair is snorm or unorm"),
+        };
+    };
+}
+
 /// The axes of `encode_precise`: those of `encode`, or its own.
 macro_rules! precise_axes {
     ($axes:tt) => {
@@ -44,7 +71,7 @@ macro_rules! precise_axes {
 macro_rules! define_codecs {
     ($(
         #[cfg(feature = $feature:literal)]
-        $family:literal, mirrors $mirrors:tt, $stable:ident, none $none:ident {$(
+        $family:literal, mirrors $mirrors:tt, $stable:ident, none $none:ident , pair $pair:ident {$(
             $name:ident: $code:ty = $text:literal, $bits:literal bits, $fast:literal / $precise:literal degrees,
                 exact $axes:tt $(/ $axes_precise:tt)?,
                 $formula:ident $(::<$($kind:ident),+>)? :: $new:ident ($($value:expr),*) $(, $flag:ident)*;
@@ -118,6 +145,8 @@ macro_rules! define_codecs {
                         mirror(code, axis.flips())
                     }
                 }
+
+                two_parameters!($name, $bits, $pair);
 
                 impl Batch for $name {
                     #[inline]
@@ -239,6 +268,24 @@ macro_rules! define_codecs {
                     };
                     BYTES
                 })*)*}
+            }
+
+            /// The code of two parameters as a little-endian integer: [`TwoParameters::from_parameters`] at run time.
+            /// `None` if codes of this format are not two parameters.
+            pub fn from_parameters(self, parameters: [i32; 2]) -> Option<u32> {
+                match self {$($(
+                    #[cfg(feature = $feature)]
+                    Format::$name => Kind::of(stringify!($pair)).map(|kind| kind.pack($bits, parameters)),
+                )*)*}
+            }
+
+            /// The parameters of a code given as a little-endian integer: [`TwoParameters::parameters`] at run
+            /// time. `None` if codes of this format are not two parameters.
+            pub fn parameters(self, code: u32) -> Option<[i32; 2]> {
+                match self {$($(
+                    #[cfg(feature = $feature)]
+                    Format::$name => Kind::of(stringify!($pair)).map(|kind| kind.unpack($bits, code)),
+                )*)*}
             }
 
             /// Calls `v` with the type of this codec.

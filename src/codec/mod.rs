@@ -5,6 +5,7 @@ mod define;
 mod format;
 mod iter;
 mod or_none;
+mod parameters;
 mod report;
 mod spare;
 mod table;
@@ -19,6 +20,7 @@ pub use define::*;
 pub use format::{UnknownFormat, Visitor, transcode};
 pub use iter::{DecodeIter, EncodeIter};
 pub use or_none::OrNone;
+pub use parameters::TwoParameters;
 pub use report::ErrorReport;
 pub(crate) use table::{codec_table, for_each_codec};
 

@@ -2,15 +2,15 @@
 
 use super::chart::{OneWord, TwoWords};
 use super::formula::{self, Rotation};
+use super::near::{To, decode_near, near};
 use super::plain::Plain;
 use super::smallest_three::SmallestThree;
 use super::{Soa4, Soa4Mut};
 use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{Word, Words2};
+use crate::batch::storage::{OneLane, Word, Words2};
 use crate::error::{LengthMismatch, StrideMismatch};
 use crate::formula::support::bits::snorm_max;
 use crate::formula::support::sanitize::sanitize4;
-use crate::simd::I32x1;
 use crate::vector::{Strided, StridedMut};
 
 /// A format of rotations with any number of bits for each component: the smallest three, or plain quaternions.
@@ -70,30 +70,6 @@ macro_rules! with_formula {
             }
         }
     };
-}
-
-/// A code in lanes of one.
-trait OneLane: Copy {
-    fn from_u64(code: u64) -> Self;
-    fn to_u64(self) -> u64;
-}
-
-impl OneLane for I32x1 {
-    fn from_u64(code: u64) -> Self {
-        I32x1(code as i32)
-    }
-    fn to_u64(self) -> u64 {
-        u64::from(self.0 as u32)
-    }
-}
-
-impl OneLane for [I32x1; 2] {
-    fn from_u64(code: u64) -> Self {
-        [I32x1(code as i32), I32x1((code >> 32) as i32)]
-    }
-    fn to_u64(self) -> u64 {
-        self[0].to_u64() | self[1].to_u64() << 32
-    }
 }
 
 impl QuaternionFormat {
@@ -183,6 +159,13 @@ impl QuaternionFormat {
         with_formula!(self, |formula, _SIZE| formula.decode::<f32>(OneLane::from_u64(code)))
     }
 
+    /// [`decode`](QuaternionFormat::decode), or the opposite if that is nearer to `previous`: see
+    /// [`QuaternionCodec::decode_near`](super::QuaternionCodec::decode_near).
+    #[inline]
+    pub fn decode_near(self, code: u64, previous: [f32; 4]) -> [f32; 4] {
+        near(self.decode(code), previous)
+    }
+
     /// The code that `encode_precise` gives for the rotation of `code`, any bit pattern.
     #[inline]
     pub fn canonical(self, code: u64) -> u64 {
@@ -222,6 +205,46 @@ impl QuaternionFormat {
     pub fn decode_soa(self, bytes: &[u8], q: Soa4Mut<'_>) -> Result<(), LengthMismatch> {
         q.check_bytes(bytes.len(), self.code_size())?;
         self.decode_batch(Codes::little_endian(bytes, self.code_size()), q.into());
+        Ok(())
+    }
+
+    /// [`decode_near`](QuaternionFormat::decode_near) for little-endian codes without gaps: each becomes near to the rotation
+    /// that it replaces.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] unless `bytes` has `code_size` for each quaternion; nothing is written then.
+    pub fn decode_aos_near(self, bytes: &[u8], q: &mut [[f32; 4]]) -> Result<(), LengthMismatch> {
+        self.decode_rows_near(bytes, q, To::Replaced)
+    }
+
+    /// [`decode_near`](QuaternionFormat::decode_near) for a track of little-endian codes without gaps: each becomes near to
+    /// the one before it, and the first near to `previous`.
+    ///
+    /// # Errors
+    /// [`LengthMismatch`] unless `bytes` has `code_size` for each quaternion; nothing is written then.
+    pub fn decode_track(
+        self,
+        bytes: &[u8],
+        previous: [f32; 4],
+        q: &mut [[f32; 4]],
+    ) -> Result<(), LengthMismatch> {
+        self.decode_rows_near(bytes, q, To::Before(previous))
+    }
+
+    fn decode_rows_near(
+        self,
+        bytes: &[u8],
+        q: &mut [[f32; 4]],
+        to: To,
+    ) -> Result<(), LengthMismatch> {
+        let size = self.code_size();
+        LengthMismatch::check_aos_bytes(q.len(), bytes.len(), size)?;
+        decode_near(
+            &|codes, q| self.decode_batch(codes, q),
+            Codes::little_endian(bytes, size),
+            q,
+            to,
+        );
         Ok(())
     }
 

@@ -121,7 +121,7 @@ fn codes_mean_what_their_bits_say() {
         let every: Vec<u64> = if format.bits() <= 16 {
             (0..1 << format.bits()).collect()
         } else {
-            (0..20_000).map(|_| u64::from(rng.bits()) << 32 | u64::from(rng.bits())).collect()
+            (0..20_000).map(|_| rng.bits()).collect()
         };
         for code in every {
             let decoded = format.decode(code).map(f64::from);
@@ -201,7 +201,7 @@ fn what_was_decoded_becomes_the_same_code() {
             assert_eq!(again, code, "{format:?} {q:?}");
             assert_eq!(format.canonical(code), code, "{format:?} {q:?}");
             // Any pattern has one.
-            let code = u64::from(rng.bits()) << 32 | u64::from(rng.bits());
+            let code = rng.bits();
             let canonical = format.canonical(code);
             assert_eq!(
                 format.encode_precise(format.decode(code)),
@@ -315,4 +315,67 @@ fn other_lengths_are_refused() {
     let error = StrideMismatch::Stride { stride: 7, size: 8 };
     assert_eq!(format.encode_strided(Strided::of(&[[1.0f32; 4]; 3], 0), to), Err(error));
     assert_eq!(bytes, [FILL; 24]);
+}
+
+/// A turn about z by 1.4 revolutions, in which the sign of what is decoded changes.
+#[test]
+fn a_track_has_no_jumps() {
+    let turn = |i: usize| {
+        let half = i as f32 * 0.011;
+        [0.1 * half.sin(), 0.0, half.sin(), half.cos()]
+    };
+    let q: Vec<[f32; 4]> = (0..800).map(turn).collect();
+    let dot = |a: [f32; 4], b: [f32; 4]| (0..4).map(|i| a[i] * b[i]).sum::<f32>();
+    let mut codes = vec![0; q.len()];
+    SmallestThree32::encode_aos(&q, &mut codes).unwrap();
+    let jumps = |q: &[[f32; 4]]| q.windows(2).filter(|w| dot(w[0], w[1]) < 0.0).count();
+    let mut decoded = q.clone();
+    SmallestThree32::decode_aos(&codes, &mut decoded).unwrap();
+    assert!(jumps(&decoded) >= 3);
+    let start = turn(0).map(|c| -c);
+    let mut track = decoded.clone();
+    SmallestThree32::decode_track(&codes, start, &mut track).unwrap();
+    assert_eq!(jumps(&track), 0);
+    assert!(dot(track[0], start) > 0.0);
+    for (t, d) in track.iter().zip(&decoded) {
+        assert!(t == d || *t == d.map(|c| -c));
+    }
+    let mut previous = start;
+    for (&code, &t) in codes.iter().zip(&track) {
+        previous = SmallestThree32::decode_near(code, previous);
+        assert_eq!(previous, t);
+    }
+
+    // Each near to what it replaces.
+    let mut replaced: Vec<[f32; 4]> = q.iter().map(|q| q.map(|c| -c)).collect();
+    SmallestThree32::decode_aos_near(&codes, &mut replaced).unwrap();
+    assert!(replaced.iter().zip(&q).all(|(r, q)| dot(*r, *q) < -0.9));
+    // What is no rotation has no sign to keep.
+    assert_eq!(SmallestThree32::decode_near(codes[9], [f32::NAN; 4]), decoded[9]);
+
+    for format in [QuaternionFormat::smallest_three(10), QuaternionFormat::snorm(12)] {
+        let format = format.unwrap();
+        let mut bytes = vec![0; format.code_size() * q.len()];
+        let to =
+            StridedMut { bytes: &mut bytes, offset: 0, stride: format.code_size(), len: q.len() };
+        format.encode_strided(Strided::of(&q, 0), to).unwrap();
+        let mut there = vec![[0.0; 4]; q.len()];
+        format.decode_track(&bytes, start, &mut there).unwrap();
+        assert_eq!(jumps(&there), 0);
+        assert!(dot(there[0], start) > 0.0);
+        if format.code_size() == 4 {
+            assert_eq!(there, track);
+        }
+        let mut near: Vec<[f32; 4]> = q.iter().map(|q| q.map(|c| -c)).collect();
+        format.decode_aos_near(&bytes, &mut near).unwrap();
+        assert!(near.iter().zip(&q).all(|(n, q)| dot(*n, *q) < -0.9));
+        assert!(format.decode_near(format.encode(q[5]), start)[3] < 0.0);
+        let error =
+            LengthMismatch::AosBytes { vectors: 800, bytes: 7, code_size: format.code_size() };
+        assert_eq!(format.decode_aos_near(&bytes[..7], &mut near), Err(error));
+        assert_eq!(format.decode_track(&bytes[..7], start, &mut near), Err(error));
+    }
+    let error = Err(LengthMismatch::Aos { vectors: 800, codes: 799 });
+    assert_eq!(SmallestThree32::decode_aos_near(&codes[1..], &mut replaced), error);
+    assert_eq!(SmallestThree32::decode_track(&codes[1..], start, &mut replaced), error);
 }
