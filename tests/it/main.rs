@@ -18,6 +18,7 @@ mod exhaustive;
 mod fibonacci;
 mod flat_texels;
 mod frame;
+mod frame_splits;
 mod golden;
 mod low_dimensions;
 mod max_error;
