@@ -556,11 +556,13 @@ fn frames_of_other_lengths_are_refused() {
         let (n, t) = (Strided::of(&normals, 0), Strided::of(&tangents, 0));
         let mut bytes = [0xEE; 64];
         let error = StrideMismatch::Frames { normals: 4, tangents: 3, codes: 3 };
-        let codes = |bytes| StridedMut { bytes, offset: 0, stride: code_size, len: 3 };
-        assert_eq!(format.encode_strided(n, t, codes(&mut bytes)), Err(error));
-        assert_eq!(format.encode_strided_precise(n, t, codes(&mut bytes)), Err(error));
+        fn codes(bytes: &mut [u8], stride: usize) -> StridedMut<'_> {
+            StridedMut { bytes, offset: 0, stride, len: 3 }
+        }
+        assert_eq!(format.encode_strided(n, t, codes(&mut bytes, code_size)), Err(error));
+        assert_eq!(format.encode_strided_precise(n, t, codes(&mut bytes, code_size)), Err(error));
         let n = Strided { len: 3, ..n };
-        let close = StridedMut { bytes: &mut bytes, offset: 0, stride: code_size - 1, len: 3 };
+        let close = codes(&mut bytes, code_size - 1);
         let error = StrideMismatch::Stride { stride: code_size - 1, size: code_size };
         assert_eq!(format.encode_strided(n, t, close), Err(error));
         assert_eq!(bytes, [0xEE; 64]);
