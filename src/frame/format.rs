@@ -36,8 +36,8 @@ use crate::vector::{Strided, StridedMut};
 ///
 /// # Promises
 /// Those of the [module](super#promises). Only the normal has codes that are not canonical. `encode(decode(code))` and
-/// `encode_precise(decode(code))` are `canonical(code)` up to 21 bits of angle. So bytes stay as they are when they are decoded and
-/// encoded again, if encoders wrote them. With more bits the angle comes back as near as `f32` carries it, to 8e-7 radians.
+/// `encode_precise(decode(code))` are `canonical(code)` up to 23 bits of angle. So a buffer that encoders wrote keeps its bytes when it
+/// is decoded and encoded again. With more bits the angle comes back to 4e-7 radians, as near as `f32` carries it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct OctAngleFormat {
     oct_bits: u32,

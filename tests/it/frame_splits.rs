@@ -13,8 +13,9 @@ use unitpack_test::vectors::{angle, cross, dot, length, normalize, plus, scaled,
 /// What rounding to `f32` may add to an angle, in radians.
 const ROUNDING: f64 = 7e-7;
 
-/// Up to so many bits every angle comes back.
-const STABLE_ANGLE_BITS: u32 = 21;
+/// Up to so many bits every angle comes back. Of 2e8 codes with 31 bits none is off by more than 111 of 2^31, and half a step of
+/// 23 bits is 128.
+const STABLE_ANGLE_BITS: u32 = 23;
 
 fn format(oct_bits: u32, angle_bits: u32) -> OctAngleFormat {
     OctAngleFormat::new(oct_bits, angle_bits).unwrap()
@@ -276,7 +277,7 @@ fn decoded_frames_are_encoded_as_they_were() {
     let mut farthest = [0; 32];
     for format in splits() {
         let angle_bits = format.angle_bits();
-        let codes = if (19..26).contains(&angle_bits) { 30_000 } else { 2_000 };
+        let codes = if (22..26).contains(&angle_bits) { 50_000 } else { 2_000 };
         for _ in 0..codes {
             let code = any_code(&mut rng);
             let canonical = format.canonical(code);
@@ -295,11 +296,9 @@ fn decoded_frames_are_encoded_as_they_were() {
     }
     eprintln!("angles come back within {farthest:?} steps, by bits");
     for (angle_bits, off) in (0..).zip(farthest) {
-        if angle_bits <= STABLE_ANGLE_BITS {
-            assert_eq!(off, 0, "{angle_bits}");
-        }
+        assert_eq!(off == 0, angle_bits <= STABLE_ANGLE_BITS, "{angle_bits}: {off}");
         let radians = f64::from(off) * TAU / (1u64 << angle_bits) as f64;
-        assert!(radians <= 8e-7 || off <= 1, "{angle_bits}: {off}");
+        assert!(radians <= 4e-7, "{angle_bits}: {off}");
     }
 }
 
