@@ -160,15 +160,14 @@ impl OctAngleFormat {
     /// assert_eq!(format.parameters(code), (-2, 5, 1 << 14, true));
     /// # Ok::<(), &str>(())
     /// ```
-    #[expect(clippy::wrong_self_convention, reason = "the format says what the parameters mean")]
     pub fn from_parameters(self, u: i32, v: i32, angle: u32, negative: bool) -> u64 {
-        from_words(self.formula().from_parameters([u, v], angle, negative))
+        from_words(self.formula().pack_parameters([u, v], angle, negative))
     }
 
     /// The parameters of a code, any bit pattern, as [`from_parameters`](OctAngleFormat::from_parameters) takes them. -M - 1 reads
     /// as -M.
     pub fn parameters(self, code: u64) -> (i32, i32, u32, bool) {
-        let ([u, v], angle, negative) = self.formula().parameters(to_words(code));
+        let ([u, v], angle, negative) = self.formula().unpack_parameters(to_words(code));
         (u, v, angle, negative)
     }
 

@@ -56,7 +56,7 @@ impl OctAngle {
 
     /// The code of a point of the octahedron's square, an angle and whether the handedness is -1. What is out of range
     /// is clamped, or for the angle wrapped.
-    pub(super) fn from_parameters(
+    pub(super) fn pack_parameters(
         self,
         params: [i32; 2],
         angle: u32,
@@ -66,8 +66,8 @@ impl OctAngle {
         self.pack::<f32>(oct, I32x1(angle as i32).low_bits(self.angle.bits()), negative)
     }
 
-    /// What [`from_parameters`](OctAngle::from_parameters) takes.
-    pub(super) fn parameters(self, code: [I32x1; 2]) -> ([i32; 2], u32, bool) {
+    /// What [`pack_parameters`](OctAngle::pack_parameters) takes.
+    pub(super) fn unpack_parameters(self, code: [I32x1; 2]) -> ([i32; 2], u32, bool) {
         let [low, _] = code;
         let [angle, sign] = self.angle_and_sign::<f32>(code);
         let angle = angle.low_bits(self.angle.bits()).0 as u32;
@@ -176,6 +176,32 @@ mod tests {
         let decoded = BITS32.decode::<f32>([I32x1(1023 | 128 << 22), I32x1(0)]);
         assert_eq!(decoded.normal, Vec3::new(1.0, 0.0, 0.0));
         assert_eq!(decoded.tangent, Vec3::new(0.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn an_angle_may_lie_in_both_words() {
+        // 20 bits of normal, 24 of angle, and the sign.
+        let split = OctAngle::new(20, 24);
+        let code = split.pack_parameters([-1, 2], 0xAB_CDEF, true).map(|word| word.0 as u32);
+        assert_eq!(code, [0xDEF0_0BFF, 0x1ABC]);
+        let code = code.map(|word| I32x1(word as i32));
+        assert_eq!(split.unpack_parameters(code), ([-1, 2], 0xAB_CDEF, true));
+        // What is above the sign does not count.
+        let [low, high] = code;
+        assert_eq!(split.canonical::<f32>([low, high | 0x7FFF_E000]), code);
+        assert_eq!(split.decode::<f32>([low, high | 0x7FFF_E000]).handedness, -1.0);
+        assert_eq!(split.decode::<f32>([low, I32x1(0x0ABC)]).handedness, 1.0);
+    }
+
+    #[test]
+    fn what_is_left_of_the_normals_word_is_the_angle() {
+        // The sign is the first word's highest bit, the second's lowest, and within the first.
+        for (oct, angle, code) in
+            [(24, 7, [0xFF00_0000, 0]), (24, 8, [0xFF00_0000, 1]), (16, 5, [0x003F_0000, 0])]
+        {
+            let all = OctAngle::new(oct, angle).pack_parameters([0, 0], u32::MAX, true);
+            assert_eq!(all.map(|word| word.0 as u32), code);
+        }
     }
 
     #[test]
