@@ -339,7 +339,8 @@ fn codes_are_their_parameters() {
             let code = format.from_parameters(u, v, angle, negative);
             let [u, v] = [u, v].map(|p| i64::from(p).clamp(-max, max));
             let angle = u64::from(angle) % (1 << angle_bits);
-            let oct_code = u as u64 % (1 << half) | v as u64 % (1 << half) << half;
+            let [low, high] = [u, v].map(|p| p as u64 % (1 << half));
+            let oct_code = low | high << half;
             let expected = oct_code | angle << oct | u64::from(negative) << (oct + angle_bits);
             assert_eq!(code, expected, "{format:?}");
             assert_eq!(format.parameters(code), (u as i32, v as i32, angle as u32, negative));
