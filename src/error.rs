@@ -50,6 +50,16 @@ pub enum LengthMismatch {
     /// tangents, of handednesses, and of codes.
     #[allow(missing_docs)]
     FrameSoa { normal: [usize; 3], tangent: [usize; 3], handedness: usize, codes: usize },
+    /// Tangent frames as structures of arrays and codes as bytes: the number of x, y and z components of normals and of
+    /// tangents, of handednesses, of bytes, and of bytes that one code takes.
+    #[allow(missing_docs)]
+    FrameBytes {
+        normal: [usize; 3],
+        tangent: [usize; 3],
+        handedness: usize,
+        bytes: usize,
+        code_size: usize,
+    },
     /// Tangent frames as arrays of structures: the number of normals, of tangents, and of codes.
     #[allow(missing_docs)]
     FrameAos { normals: usize, tangents: usize, codes: usize },
@@ -148,6 +158,19 @@ impl LengthMismatch {
     }
 
     #[inline]
+    pub(crate) fn check_frame_bytes(
+        normal: [usize; 3],
+        tangent: [usize; 3],
+        handedness: usize,
+        bytes: usize,
+        code_size: usize,
+    ) -> Result<(), Self> {
+        let fits = [normal, tangent] == [[handedness; 3]; 2]
+            && handedness.checked_mul(code_size) == Some(bytes);
+        Self::FrameBytes { normal, tangent, handedness, bytes, code_size }.unless(fits)
+    }
+
+    #[inline]
     pub(crate) fn check_frame_aos(
         normals: usize,
         tangents: usize,
@@ -212,6 +235,17 @@ impl fmt::Display for LengthMismatch {
                 f,
                 "lengths differ: normal x {x}, y {y}, z {z}, tangent x {tx}, y {ty}, z {tz}, \
                  handedness {handedness}, codes {codes}"
+            ),
+            LengthMismatch::FrameBytes {
+                normal: [x, y, z],
+                tangent: [tx, ty, tz],
+                handedness,
+                bytes,
+                code_size,
+            } => write!(
+                f,
+                "lengths do not fit: normal x {x}, y {y}, z {z}, tangent x {tx}, y {ty}, z {tz}, \
+                 handedness {handedness}, bytes {bytes} at {code_size} a code"
             ),
             LengthMismatch::FrameAos { normals, tangents, codes } => {
                 write!(f, "lengths differ: normals {normals}, tangents {tangents}, codes {codes}")

@@ -1,7 +1,8 @@
-//! Tangent frames: normal, tangent and handedness in 32 or 64 bits.
+//! Tangent frames: normal, tangent and handedness in 16 to 64 bits.
 //!
 //! [`OctAngle32`] and [`OctAngle64`] hold the normal as the crate's octahedral code, and the tangent as
-//! its angle around the normal that this code decodes to:
+//! its angle around the normal that this code decodes to. [`OctAngleFormat`] is the same with any split of the
+//! bits, chosen at run time:
 //!
 //! ```text
 //! basis    of the decoded normal n:  s = -1 if n.z < 0, else 1;  a = -1 / (s + n.z);  b = n.x n.y a
@@ -33,8 +34,8 @@
 //! frames, with `encode` and 9 bits, a diamond's tangents are off by 0.188° in the mean and 0.459° at most, an
 //! angle's by 0.181° and 0.367°.
 //!
-//! The basis has a seam at n.z = 0. A decoder elsewhere has to find the same side of it, so n.z is best
-//! computed as M - |u| - |w| in the code's integers, where the equator's z is exactly 0.
+//! [`basis()`] gives b1 and b2, as other decoders have to find them. The basis has a seam at n.z = 0. They have to find the same
+//! side of it, so n.z is best computed as M - |u| - |w| in the code's integers, where the equator's z is exactly 0.
 //!
 //! # Promises
 //! The [crate's](crate#promises) hold here too:
@@ -67,13 +68,16 @@ use crate::batch::layout::{CodeLayout, Codes, CodesMut, PairMut, Vectors, Vector
 use crate::batch::storage::{from_native, to_native};
 use crate::codec::Format;
 use crate::error::{LengthMismatch, StrideMismatch};
+use crate::formula::support::sanitize::sanitize;
 use crate::simd::{I32x1, Vec3};
 use crate::vector::{Soa, SoaMut, Strided, StridedMut};
-use formula::{FrameBytes, FrameFormula, Prepared, skew_degrees};
+pub use format::OctAngleFormat;
+use formula::{FrameCodes, FrameFormula, Prepared, skew_degrees};
 use kernels::FrameKernels;
 use oct_angle::OctAngle;
 use qtangent::QTangent;
 
+mod format;
 mod formula;
 mod kernels;
 mod oct_angle;
@@ -112,6 +116,32 @@ impl Frame {
     fn prepare(self) -> Prepared<f32> {
         Prepared::new(self.normal.into(), self.tangent.into(), self.handedness)
     }
+}
+
+/// The vectors b1 and b2 around which [`OctAngle32`], [`OctAngle64`] and [`OctAngleFormat`] count the angle, for a decoded normal n:
+///
+/// ```text
+/// s = -1 if n.z < 0, else 1;  a = -1 / (s + n.z);  b = n.x n.y a
+/// b1 = (1 + s n.x^2 a, s b, -s n.x)
+/// b2 = (b, s + n.y^2 a, -n.y)
+/// ```
+///
+/// b1, b2 and n are an orthonormal, right-handed system. The tangent of angle t is b1 cos(t) + b2 sin(t). Of a vector whose
+/// squared length is not 1 to 1e-6 the direction counts: zero and NaN are taken as +Z, an infinite component as the limit direction.
+///
+/// ```
+/// let [b1, b2] = unitpack::frame::basis([1.0, 0.0, 0.0]);
+/// assert_eq!((b1, b2), ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]));
+/// ```
+///
+/// Source: Duff et al., "Building an Orthonormal Basis, Revisited", 2017.
+pub fn basis(normal: [f32; 3]) -> [[f32; 3]; 2] {
+    let v = Vec3::from(normal);
+    // A decoded normal stays as it is.
+    let is_unit = (v.length_squared() - 1.0).abs() <= 1e-6;
+    let unit = if is_unit { v } else { sanitize(v).normalize() };
+    // -0 is not below 0.
+    formula::basis(formula::unsigned_zeros(unit)).map(|b| formula::unsigned_zeros(b).to_array())
 }
 
 /// The frame of a batch whose tangent is the farthest from orthogonal to its normal.
@@ -155,6 +185,14 @@ impl<'a> FrameSoa<'a> {
     }
 
     #[inline]
+    fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
+        let lengths = |v: Soa<'_>| [v.x.len(), v.y.len(), v.z.len()];
+        let (normal, tangent) = (lengths(self.normal), lengths(self.tangent));
+        let handedness = self.handedness.len();
+        LengthMismatch::check_frame_bytes(normal, tangent, handedness, bytes, code_size)
+    }
+
+    #[inline]
     fn vectors(self) -> (Vectors<'a, 3>, Vectors<'a, 4>) {
         let Soa { x, y, z } = self.tangent;
         (self.normal.into(), Vectors::Columns([x, y, z, self.handedness]))
@@ -167,6 +205,14 @@ impl<'a> FrameSoaMut<'a> {
         let lengths = |v: &SoaMut<'_>| [v.x.len(), v.y.len(), v.z.len()];
         let (normal, tangent) = (lengths(&self.normal), lengths(&self.tangent));
         LengthMismatch::check_frame_soa(normal, tangent, self.handedness.len(), codes)
+    }
+
+    #[inline]
+    fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
+        let lengths = |v: &SoaMut<'_>| [v.x.len(), v.y.len(), v.z.len()];
+        let (normal, tangent) = (lengths(&self.normal), lengths(&self.tangent));
+        let handedness = self.handedness.len();
+        LengthMismatch::check_frame_bytes(normal, tangent, handedness, bytes, code_size)
     }
 
     #[inline]
@@ -446,22 +492,22 @@ macro_rules! frame_codecs {
             impl FrameKernels for $name {
                 #[inline(never)]
                 fn encode_batch(frames: (Vectors<'_, 3>, Vectors<'_, 4>), codes: CodesMut<'_>) -> Skew {
-                    kernels::encode::<_, { size_of::<$code>() }, false>(FORMULA, frames, codes)
+                    kernels::encode::<_, Bytes, false>(FORMULA, frames, codes)
                 }
                 #[inline(never)]
                 fn encode_batch_precise(
                     frames: (Vectors<'_, 3>, Vectors<'_, 4>),
                     codes: CodesMut<'_>,
                 ) -> Skew {
-                    kernels::encode::<_, { size_of::<$code>() }, true>(FORMULA, frames, codes)
+                    kernels::encode::<_, Bytes, true>(FORMULA, frames, codes)
                 }
                 #[inline(never)]
                 fn decode_batch(codes: Codes<'_>, frames: (VectorsMut<'_, 3>, VectorsMut<'_, 4>)) {
-                    kernels::decode::<_, _, { size_of::<$code>() }>(FORMULA, codes, frames);
+                    kernels::decode::<_, Bytes, _>(FORMULA, codes, frames);
                 }
                 #[inline(never)]
                 fn decode_pairs(codes: Codes<'_>, frames: PairMut<'_>) {
-                    kernels::decode::<_, _, { size_of::<$code>() }>(FORMULA, codes, frames);
+                    kernels::decode::<_, Bytes, _>(FORMULA, codes, frames);
                 }
             }
         };

@@ -378,15 +378,15 @@ macro_rules! codecs {
             impl RotationKernels for $name {
                 #[inline(never)]
                 fn encode_batch(quaternions: Vectors<'_, 4>, codes: CodesMut<'_>) {
-                    formula::encode::<_, { size_of::<$code>() }, false>(FORMULA, quaternions, codes);
+                    formula::encode::<_, Bytes, false>(FORMULA, quaternions, codes);
                 }
                 #[inline(never)]
                 fn encode_batch_precise(quaternions: Vectors<'_, 4>, codes: CodesMut<'_>) {
-                    formula::encode::<_, { size_of::<$code>() }, true>(FORMULA, quaternions, codes);
+                    formula::encode::<_, Bytes, true>(FORMULA, quaternions, codes);
                 }
                 #[inline(never)]
                 fn decode_batch(codes: Codes<'_>, quaternions: VectorsMut<'_, 4>) {
-                    formula::decode::<_, { size_of::<$code>() }>(FORMULA, codes, quaternions);
+                    formula::decode::<_, Bytes>(FORMULA, codes, quaternions);
                 }
             }
         };

@@ -4,7 +4,9 @@
 use std::f64::consts::PI;
 
 use libfuzzer_sys::fuzz_target;
-use unitpack::frame::{Frame, FrameCodec, OctAngle32, OctAngle64, QTangent64, Skew};
+use unitpack::frame::{
+    Frame, FrameCodec, OctAngle32, OctAngle64, OctAngleFormat, QTangent64, Skew,
+};
 use unitpack::{Codec, Oct22, Oct32};
 use unitpack_fuzz::{Bytes, FrameArrays};
 use unitpack_test::UNWRITTEN;
@@ -17,13 +19,14 @@ const ROUNDING: f64 = 1e-6;
 fuzz_target!(|data: &[u8]| {
     let mut bytes = Bytes(data);
     let which = bytes.byte();
+    let which_split = if which % 4 == 3 { bytes.take() } else { [0; 2] };
     let items = bytes.rest::<28>();
     let frame = |item: &[u8; 28]| {
         let [a, b, c, d, e, f, handedness]: [f32; 7] = bytemuck::pod_read_unaligned(item);
         Frame { normal: [a, b, c], tangent: [d, e, f], handedness }
     };
     let frames: Vec<Frame> = items.iter().map(frame).collect();
-    match which % 3 {
+    match which % 4 {
         0 => {
             let given: Vec<u32> =
                 items.iter().map(|i| bytemuck::pod_read_unaligned(&i[2..6])).collect();
@@ -52,7 +55,7 @@ fuzz_target!(|data: &[u8]| {
                 assert_eq!((again as u32, again >> 63), (canonical as u32, canonical >> 63));
             }
         }
-        _ => {
+        2 => {
             let given: Vec<[i16; 4]> =
                 items.iter().map(|i| bytemuck::pod_read_unaligned(&i[2..10])).collect();
             batches::<QTangent64>(&frames, &given);
@@ -67,6 +70,31 @@ fuzz_target!(|data: &[u8]| {
                 let bound = QTangent64::MAX_TANGENT_ERROR_PRECISE_DEGREES;
                 assert!(off(now.normal, then.normal) <= bound, "{code:?} {canonical:?}");
                 assert!(off(now.tangent, then.tangent) <= bound, "{code:?} {canonical:?}");
+            }
+        }
+        _ => {
+            let splits: Vec<OctAngleFormat> = (8..=32)
+                .flat_map(|oct| (1..=31).filter_map(move |angle| OctAngleFormat::new(oct, angle)))
+                .collect();
+            let format = splits[usize::from(u16::from_le_bytes(which_split)) % splits.len()];
+            let given: Vec<u64> =
+                items.iter().map(|i| bytemuck::pod_read_unaligned(&i[2..10])).collect();
+            split_batches(format, &frames, &given);
+            for &frame in &frames {
+                split(format, frame);
+            }
+            for code in given {
+                let (oct, angle) = (format.oct_bits() / 2, format.angle_bits());
+                let negative = code >> (format.bits() - 1) & 1 == 1;
+                decodes(format.decode(code), oct_angle(code, oct, angle), negative);
+                let (u, v, angle, sign) = format.parameters(code);
+                let canonical = format.canonical(code);
+                let same = format.from_parameters(u, v, angle, sign);
+                assert_eq!(format.canonical(same), canonical);
+                if format.angle_bits() < 24 {
+                    assert_eq!(format.encode_precise(format.decode(code)), canonical);
+                    assert_eq!(format.encode(format.decode(code)), canonical);
+                }
             }
         }
     }
@@ -105,6 +133,45 @@ fn oct_angles<C: FrameCodec, N: Codec>(
             let error = angle(target, tangent);
             assert!(error <= PI / (1u64 << bits) as f64 + slack, "{of}, off by {error:e}");
         }
+    }
+}
+
+/// The nearest angle, and the sign, with nothing above.
+fn split(format: OctAngleFormat, frame: Frame) {
+    for code in [format.encode(frame), format.encode_precise(frame)] {
+        let of = format!("{format:?} {frame:?} = {code:x}");
+        assert_eq!(code >> (format.bits() - 1) == 1, frame.handedness < 0.0, "{of}");
+        assert_eq!(code >> (format.bits() - 1) >> 1, 0, "{of}");
+        assert!(format.is_canonical(code), "{of}");
+        let (about, tangent) = vectors(format.decode(code));
+        if let Some(target) = part_across(frame, about)
+            && length(target) > 1e-5
+        {
+            let slack = ROUNDING * (1.0 + 1.0 / length(target));
+            let error = angle(target, tangent);
+            let half_step = PI / (1u64 << format.angle_bits()) as f64;
+            assert!(error <= half_step + slack, "{of}, off by {error:e}");
+        }
+    }
+}
+
+/// Bytes are those of single codes.
+fn split_batches(format: OctAngleFormat, frames: &[Frame], given: &[u64]) {
+    let (arrays, size) = (FrameArrays::from(frames), format.code_size());
+    let to_bytes = |codes: &mut dyn Iterator<Item = u64>| -> Vec<u8> {
+        codes.flat_map(|code| code.to_le_bytes()[..size].to_vec()).collect()
+    };
+    let mut bytes = vec![0xEE; size * frames.len()];
+    format.encode_soa(arrays.read(), &mut bytes).unwrap();
+    assert_eq!(bytes, to_bytes(&mut frames.iter().map(|frame| format.encode(*frame))));
+    format.encode_soa_precise(arrays.read(), &mut bytes).unwrap();
+    assert_eq!(bytes, to_bytes(&mut frames.iter().map(|frame| format.encode_precise(*frame))));
+
+    let mut decoded = FrameArrays::unwritten([given.len(); 7]);
+    format.decode_soa(&to_bytes(&mut given.iter().copied()), decoded.write()).unwrap();
+    for (i, &code) in given.iter().enumerate() {
+        let got = [0, 1, 2, 3, 4, 5, 6].map(|c: usize| decoded.0[c][i].to_bits());
+        assert_eq!(got, bits(format.decode(code)));
     }
 }
 

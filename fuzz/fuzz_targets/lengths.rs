@@ -3,7 +3,7 @@
 
 use libfuzzer_sys::fuzz_target;
 use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable};
-use unitpack::frame::{FrameCodec, OctAngle32, OctAngle64, QTangent64};
+use unitpack::frame::{FrameCodec, OctAngle32, OctAngle64, OctAngleFormat, QTangent64};
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
 use unitpack::quaternion::{
@@ -38,6 +38,11 @@ fuzz_target!(|data: &[u8]| {
     frames::<OctAngle32>(lengths, others);
     frames::<OctAngle64>(lengths, others);
     frames::<QTangent64>(lengths, others);
+    let beside = usize::from(bytes.byte() % 3 == 0);
+    for (oct, angle) in [(8, 7), (16, 4), (24, 7), (32, 15), (32, 31)] {
+        let format = OctAngleFormat::new(oct, angle).expect("a split that there is");
+        frame_split(format, lengths, others, beside);
+    }
 });
 
 /// The error that lengths call for, if any, and the numbers that its message must give in this order.
@@ -270,6 +275,29 @@ fn quaternions<C: QuaternionCodec>([x, y, z, codes]: [usize; 4], w: usize) {
     check(C::NAME, vec![pattern; y], mismatch, |to| C::encode_aos(&structures, to));
     check(C::NAME, vec![pattern; y], mismatch, |to| C::encode_aos_precise(&structures, to));
     check(C::NAME, vec![[UNWRITTEN; 4]; x], mismatch, |to| C::decode_aos(&vec![pattern; y], to));
+}
+
+fn frame_split(
+    format: OctAngleFormat,
+    [a, b, c, d]: [usize; 4],
+    [e, f, handedness, codes]: [usize; 4],
+    beside: usize,
+) {
+    let (normal, tangent, code_size) = ([a, b, c], [d, e, f], format.code_size());
+    let bytes = codes * code_size + beside;
+    let error = LengthMismatch::FrameBytes { normal, tangent, handedness, bytes, code_size };
+    let lengths = [a, b, c, d, e, f, handedness, bytes, code_size];
+    let fit = [a, b, c, d, e, f, handedness] == [codes; 7] && beside == 0;
+    let mismatch = unless(fit, error, &lengths);
+    let unwritten = vec![0xA5; bytes];
+    for encode in [OctAngleFormat::encode_soa, OctAngleFormat::encode_soa_precise] {
+        let frames = FrameArrays([a, b, c, d, e, f, handedness].map(|len| vec![0.5; len]));
+        let encode = |to: &mut Vec<u8>| encode(format, frames.read(), to).map(drop);
+        check("a split of frames", unwritten.clone(), mismatch, encode);
+    }
+    let frames = FrameArrays::unwritten([a, b, c, d, e, f, handedness]);
+    let decode = |to: &mut FrameArrays| format.decode_soa(&unwritten, to.write());
+    check("a split of frames", frames, mismatch, decode);
 }
 
 fn frames<C: FrameCodec>([a, b, c, d]: [usize; 4], [e, f, handedness, codes]: [usize; 4]) {

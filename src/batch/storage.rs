@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 
-use crate::simd::{I32x1, Simd};
+use crate::simd::{I32x1, Simd, SimdInt};
 
 /// Number of 32-bit words that hold a code in lanes.
 pub(crate) trait CodeShape: 'static {
@@ -176,6 +176,86 @@ impl CodeKind for Words {
             BySize::Two(blocks) => <[u8; 2] as CodeKind>::store::<V>(code, blocks, i),
             BySize::Three(blocks) => <[u8; 3] as CodeKind>::store::<V>(code, blocks, i),
             BySize::Four(blocks) => <[u8; 4] as CodeKind>::store::<V>(code, blocks, i),
+        }
+    }
+}
+
+/// Codes of at most eight bytes, in two words: those of [`Words`], and those of six or eight bytes. Each block looks at how
+/// many.
+pub(crate) struct DoubleWords;
+
+/// One of three, by the size of a code in bytes.
+#[derive(Clone, Copy)]
+pub(crate) enum ByDoubleSize<A, B, C> {
+    UpToFour(A),
+    Six(B),
+    Eight(C),
+}
+
+impl CodeKind for DoubleWords {
+    type Shape = Words2;
+    type Blocks<'a, V: Simd> =
+        ByDoubleSize<BlocksOf<'a, Words, V>, &'a [V::Block<[u8; 6]>], BlocksOf<'a, [u8; 8], V>>;
+    type BlocksMut<'a, V: Simd> = ByDoubleSize<
+        BlocksMutOf<'a, Words, V>,
+        &'a mut [V::Block<[u8; 6]>],
+        BlocksMutOf<'a, [u8; 8], V>,
+    >;
+
+    #[inline(always)]
+    fn blocks<V: Simd>(codes: CodeSlice<'_>, count: usize) -> Option<Self::Blocks<'_, V>> {
+        Some(match codes.size {
+            6 => ByDoubleSize::Six(<[u8; 6]>::blocks::<V>(codes, count)?),
+            8 => ByDoubleSize::Eight(<[u8; 8]>::blocks::<V>(codes, count)?),
+            _ => ByDoubleSize::UpToFour(Words::blocks::<V>(codes, count)?),
+        })
+    }
+    #[inline(always)]
+    fn blocks_mut<V: Simd>(
+        codes: CodeSliceMut<'_>,
+        count: usize,
+    ) -> Option<Self::BlocksMut<'_, V>> {
+        Some(match codes.size {
+            6 => ByDoubleSize::Six(<[u8; 6]>::blocks_mut::<V>(codes, count)?),
+            8 => ByDoubleSize::Eight(<[u8; 8]>::blocks_mut::<V>(codes, count)?),
+            _ => ByDoubleSize::UpToFour(Words::blocks_mut::<V>(codes, count)?),
+        })
+    }
+    #[inline(always)]
+    fn load<V: Simd>(blocks: Self::Blocks<'_, V>, i: usize) -> Option<[V::Int; 2]> {
+        match blocks {
+            ByDoubleSize::UpToFour(blocks) => {
+                Some([Words::load::<V>(blocks, i)?, V::Int::splat(0)])
+            }
+            ByDoubleSize::Six(blocks) => {
+                let block = blocks.get(i)?;
+                Some([
+                    V::load_int(block, |[a, b, c, d, ..]: [u8; 6]| {
+                        u32::from_le_bytes([a, b, c, d])
+                    }),
+                    V::load_int(block, |[.., a, b]: [u8; 6]| u32::from(u16::from_le_bytes([a, b]))),
+                ])
+            }
+            ByDoubleSize::Eight(blocks) => <[u8; 8] as CodeKind>::load::<V>(blocks, i),
+        }
+    }
+    #[inline(always)]
+    fn store<V: Simd>([low, high]: [V::Int; 2], blocks: &mut Self::BlocksMut<'_, V>, i: usize) {
+        match blocks {
+            ByDoubleSize::UpToFour(blocks) => Words::store::<V>(low, blocks, i),
+            ByDoubleSize::Six(blocks) => {
+                if let Some(block) = blocks.get_mut(i) {
+                    V::store_int(low, block, |[a, b, c, d, ..]: &mut [u8; 6], i| {
+                        [*a, *b, *c, *d] = i.to_le_bytes();
+                    });
+                    V::store_int(high, block, |[.., a, b]: &mut [u8; 6], i| {
+                        [*a, *b] = (i as u16).to_le_bytes();
+                    });
+                }
+            }
+            ByDoubleSize::Eight(blocks) => {
+                <[u8; 8] as CodeKind>::store::<V>([low, high], blocks, i)
+            }
         }
     }
 }
@@ -460,6 +540,33 @@ mod tests {
             let mut blocks = Words::blocks_mut::<f32>(codes, count).unwrap();
             Words::store::<f32>(I32x1(second), &mut blocks, 1);
             Words::store::<f32>(I32x1(-1), &mut blocks, count);
+            assert_eq!(written[size..2 * size], bytes[size..2 * size]);
+            assert!(written[..size].iter().chain(&written[2 * size..]).all(|b| *b == 0xEE));
+        }
+    }
+
+    #[test]
+    fn double_words_go_by_the_size_of_a_code() {
+        let bytes: [u8; 24] = core::array::from_fn(|i| i as u8);
+        for (size, second) in [
+            (2, [0x0302, 0]),
+            (3, [0x05_0403, 0]),
+            (4, [0x0706_0504, 0]),
+            (6, [0x0908_0706, 0x0B0A]),
+            (8, [0x0B0A_0908, 0x0F0E_0D0C]),
+        ] {
+            let (count, second) = (bytes.len() / size, second.map(I32x1));
+            let codes = CodeSlice { bytes: &bytes, size };
+            let blocks = DoubleWords::blocks::<f32>(codes, count).unwrap();
+            assert_eq!(DoubleWords::load::<f32>(blocks, 1), Some(second));
+            assert_eq!(DoubleWords::load::<f32>(blocks, count), None);
+            assert!(DoubleWords::blocks::<f32>(codes, count + 1).is_none());
+
+            let mut written = [0xEE; 24];
+            let codes = CodeSliceMut { bytes: &mut written, size };
+            let mut blocks = DoubleWords::blocks_mut::<f32>(codes, count).unwrap();
+            DoubleWords::store::<f32>(second, &mut blocks, 1);
+            DoubleWords::store::<f32>([I32x1(-1); 2], &mut blocks, count);
             assert_eq!(written[size..2 * size], bytes[size..2 * size]);
             assert!(written[..size].iter().chain(&written[2 * size..]).all(|b| *b == 0xEE));
         }

@@ -39,6 +39,10 @@ impl Circle {
         Circle { bits }
     }
 
+    pub(crate) const fn bits(self) -> u32 {
+        self.bits
+    }
+
     /// The code of the nearest multiple to the direction (x, y), of which 0 counts as +X: ties to even.
     /// For components that are zero or from 2^-100 to 2^60. Above 24 bits the last ones are those of
     /// `f32` rounding.

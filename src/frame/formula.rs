@@ -1,7 +1,7 @@
 //! The trait that every family of frame codecs implements, and what they share: the input, and the
 //! basis of a normal.
 
-use crate::batch::storage::{CodeBytes, CodeIn};
+use crate::batch::storage::{CodeKind, DoubleWords, ShapeIn};
 use crate::formula::support::sanitize::{magnitude, sanitize};
 use crate::simd::math::{atan2_half_turns, sqrt};
 use crate::simd::{Simd, SimdInt, Vec3, map_vec};
@@ -115,12 +115,12 @@ pub(super) fn skew_degrees(sin_squared: f32) -> f32 {
 }
 
 /// Bytes that hold a code of two words.
-pub(super) trait FrameBytes: CodeBytes {
-    fn to_words<V: Simd>(code: CodeIn<Self, V>) -> [V::Int; 2];
-    fn from_words<V: Simd>(words: [V::Int; 2]) -> CodeIn<Self, V>;
+pub(super) trait FrameCodes: CodeKind {
+    fn to_words<V: Simd>(code: ShapeIn<Self::Shape, V>) -> [V::Int; 2];
+    fn from_words<V: Simd>(words: [V::Int; 2]) -> ShapeIn<Self::Shape, V>;
 }
 
-impl FrameBytes for [u8; 4] {
+impl FrameCodes for [u8; 4] {
     #[inline(always)]
     fn to_words<V: Simd>(code: V::Int) -> [V::Int; 2] {
         [code, V::Int::splat(0)]
@@ -131,7 +131,18 @@ impl FrameBytes for [u8; 4] {
     }
 }
 
-impl FrameBytes for [u8; 8] {
+impl FrameCodes for [u8; 8] {
+    #[inline(always)]
+    fn to_words<V: Simd>(code: [V::Int; 2]) -> [V::Int; 2] {
+        code
+    }
+    #[inline(always)]
+    fn from_words<V: Simd>(words: [V::Int; 2]) -> [V::Int; 2] {
+        words
+    }
+}
+
+impl FrameCodes for DoubleWords {
     #[inline(always)]
     fn to_words<V: Simd>(code: [V::Int; 2]) -> [V::Int; 2] {
         code

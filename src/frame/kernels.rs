@@ -2,13 +2,13 @@
 
 use crate::batch::columns::{CodeColumn, Columns, Output};
 use crate::batch::layout::{self, Codes, CodesMut, PairMut, Vectors, VectorsMut, Write};
-use crate::batch::storage::{CodeIn, CodeSlice};
+use crate::batch::storage::{CodeSlice, ShapeIn};
 use crate::batch::{Kernel, map, run};
 use crate::simd::stream::Fence;
 use crate::simd::{Simd, Use, Vec3};
 
 use super::Skew;
-use super::formula::{FrameBytes, FrameFormula, Prepared, skew_degrees};
+use super::formula::{FrameCodes, FrameFormula, Prepared, skew_degrees};
 
 /// The kernels of a codec, compiled here: see [`Kernels`](crate::formula::Kernels). Tangents have the
 /// handedness as their fourth component.
@@ -33,8 +33,8 @@ struct Decode<F>(F);
 /// Normals and tangents.
 pub(super) type Frames = (Columns<3>, Columns<4>);
 
-impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
-    Kernel<Frames, (CodeColumn<B>, Columns<1>)> for Encode<F, PRECISE>
+impl<F: FrameFormula, C: FrameCodes, const PRECISE: bool>
+    Kernel<Frames, (CodeColumn<C>, Columns<1>)> for Encode<F, PRECISE>
 {
     const USE: Use = if PRECISE { Use::Sometimes } else { Use::Often };
 
@@ -42,17 +42,17 @@ impl<F: FrameFormula, B: FrameBytes, const PRECISE: bool>
     fn run<V: Simd>(
         self,
         ([nx, ny, nz], [tx, ty, tz, handedness]): ([V; 3], [V; 4]),
-    ) -> (CodeIn<B, V>, [V; 1]) {
+    ) -> (ShapeIn<C::Shape, V>, [V; 1]) {
         let frame = Prepared::new(Vec3::new(nx, ny, nz), Vec3::new(tx, ty, tz), handedness);
         let sin_squared = frame.sin_squared;
-        (B::from_words::<V>(self.0.encode::<V, PRECISE>(frame)), [sin_squared])
+        (C::from_words::<V>(self.0.encode::<V, PRECISE>(frame)), [sin_squared])
     }
 }
 
-impl<F: FrameFormula, B: FrameBytes> Kernel<CodeColumn<B>, Frames> for Decode<F> {
+impl<F: FrameFormula, C: FrameCodes> Kernel<CodeColumn<C>, Frames> for Decode<F> {
     #[inline(always)]
-    fn run<V: Simd>(self, code: CodeIn<B, V>) -> ([V; 3], [V; 4]) {
-        let frame = self.0.decode::<V>(B::to_words::<V>(code));
+    fn run<V: Simd>(self, code: ShapeIn<C::Shape, V>) -> ([V; 3], [V; 4]) {
+        let frame = self.0.decode::<V>(C::to_words::<V>(code));
         let Vec3 { x, y, z } = frame.tangent;
         (frame.normal.to_array(), [x, y, z, frame.handedness])
     }
@@ -89,45 +89,38 @@ impl Worst {
 }
 
 #[inline(always)]
-pub(super) fn encode<F: FrameFormula, const N: usize, const PRECISE: bool>(
+pub(super) fn encode<F: FrameFormula, C: FrameCodes, const PRECISE: bool>(
     formula: F,
     frames: (Vectors<'_, 3>, Vectors<'_, 4>),
     codes: CodesMut<'_>,
-) -> Skew
-where
-    [u8; N]: FrameBytes,
-{
+) -> Skew {
     let mut worst = Worst::default();
     layout::encode_in_parts(frames, codes, &mut |frames, codes, [sines]| {
         let kernel = Encode::<F, PRECISE>(formula);
         let output = (codes, [&mut *sines]);
-        map::<Frames, (CodeColumn<[u8; N]>, Columns<1>)>(kernel, frames, output);
+        map::<Frames, (CodeColumn<C>, Columns<1>)>(kernel, frames, output);
         worst.consider(sines);
     });
     Skew { degrees: skew_degrees(worst.sin_squared), index: worst.index }
 }
 
 #[inline(never)]
-fn decode_columns<F: FrameFormula, const N: usize>(
+fn decode_columns<F: FrameFormula, C: FrameCodes>(
     formula: F,
     codes: CodeSlice<'_>,
     frames: <Frames as Output>::Slices<'_>,
     fence: &Fence,
-) where
-    [u8; N]: FrameBytes,
-{
-    run::<CodeColumn<[u8; N]>, Frames>(Decode(formula), codes, frames, fence);
+) {
+    run::<CodeColumn<C>, Frames>(Decode(formula), codes, frames, fence);
 }
 
 #[inline(always)]
-pub(super) fn decode<'a, F: FrameFormula, W: Write<'a, Kind = Frames>, const N: usize>(
+pub(super) fn decode<'a, F: FrameFormula, C: FrameCodes, W: Write<'a, Kind = Frames>>(
     formula: F,
     codes: Codes<'_>,
     frames: W,
-) where
-    [u8; N]: FrameBytes,
-{
+) {
     layout::decode(codes, frames, &mut |codes, frames, fence| {
-        decode_columns::<F, N>(formula, codes, frames, fence);
+        decode_columns::<F, C>(formula, codes, frames, fence);
     });
 }

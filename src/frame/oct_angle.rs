@@ -3,24 +3,81 @@
 use crate::formula::Formula;
 use crate::formula::circle::Circle;
 use crate::formula::oct::{Central, Oct};
-use crate::simd::{Simd, SimdInt};
+use crate::simd::{I32x1, Simd, SimdInt};
 
 use super::formula::{Decoded, FrameFormula, Prepared, basis, sign, unit_combination};
 
-/// A normal, an angle and a sign bit, in 32 or 64 bits in all.
+/// A normal, an angle and a sign bit, from the low bits up: at most 64 bits in all.
 #[derive(Clone, Copy)]
 pub(super) struct OctAngle {
     oct: Oct<Central>,
     angle: Circle,
-    /// Where the angle begins, or 32 if it has a word of its own.
+    /// Where the angle begins, from 8 to 32.
     shift: u32,
+    /// How far the sign is below the highest bit of its word.
+    below_top: u32,
+    /// The sign's bit, a mask a word.
+    sign: [i32; 2],
+    /// The bits of angle and sign.
+    rest: [i32; 2],
 }
 
 impl OctAngle {
+    /// An even number of bits for the normal, from 8 to 32, and from 1 to 31 for the angle.
     pub(super) const fn new(oct_bits: u32, angle_bits: u32) -> Self {
-        assert!(oct_bits == 32 && angle_bits == 31 || oct_bits + angle_bits == 31);
-        OctAngle { oct: Oct::new(oct_bits), angle: Circle::new(angle_bits), shift: oct_bits }
+        let sign_at = oct_bits + angle_bits;
+        OctAngle {
+            oct: Oct::plain(oct_bits),
+            angle: Circle::new(angle_bits),
+            shift: oct_bits,
+            below_top: 31 - sign_at % 32,
+            sign: halves(1 << sign_at),
+            rest: halves(u64::MAX >> (63 - sign_at) >> oct_bits << oct_bits),
+        }
     }
+
+    /// The code of a normal's code, an angle and a sign.
+    #[inline(always)]
+    fn pack<V: Simd>(self, oct: V::Int, angle: V::Int, negative: V::Mask) -> [V::Int; 2] {
+        let [sign_low, sign_high] = self.sign.map(|bit| V::Int::select(negative, bit, 0));
+        // In two steps, as one by all 32 bits is not defined.
+        let low = angle.shl(self.shift - 1).shl(1);
+        let high = angle.shr_logical(32 - self.shift);
+        [oct | low | sign_low, high | sign_high]
+    }
+
+    /// The angle in the low bits, and the sign in the highest. Other bits are any.
+    #[inline(always)]
+    fn angle_and_sign<V: Simd>(self, [low, high]: [V::Int; 2]) -> [V::Int; 2] {
+        let angle = low.shr_logical(self.shift - 1).shr_logical(1) | high.shl(32 - self.shift);
+        let [sign_low, sign_high] = self.sign;
+        [angle, ((low & sign_low) | (high & sign_high)).shl(self.below_top)]
+    }
+
+    /// The code of a point of the octahedron's square, an angle and whether the handedness is -1. What is out of range
+    /// is clamped, or for the angle wrapped.
+    pub(super) fn pack_parameters(
+        self,
+        params: [i32; 2],
+        angle: u32,
+        negative: bool,
+    ) -> [I32x1; 2] {
+        let oct = self.oct.pack::<f32>(params.map(I32x1));
+        self.pack::<f32>(oct, I32x1(angle as i32).low_bits(self.angle.bits()), negative)
+    }
+
+    /// What [`pack_parameters`](OctAngle::pack_parameters) takes.
+    pub(super) fn unpack_parameters(self, code: [I32x1; 2]) -> ([i32; 2], u32, bool) {
+        let [low, _] = code;
+        let [angle, sign] = self.angle_and_sign::<f32>(code);
+        let angle = angle.low_bits(self.angle.bits()).0 as u32;
+        (self.oct.unpack::<f32>(low).map(|p| p.0), angle, sign.0 < 0)
+    }
+}
+
+/// Low and high half.
+const fn halves(bits: u64) -> [i32; 2] {
+    [bits as i32, (bits >> 32) as i32]
 }
 
 impl FrameFormula for OctAngle {
@@ -34,38 +91,29 @@ impl FrameFormula for OctAngle {
         // Around the normal that the decoder will have.
         let normal = self.oct.decode::<V>(oct);
         let angle = self.angle.nearest(frame.tangent_in(basis(normal)));
-        let sign = V::Int::select(frame.negative, i32::MIN, 0);
-        if self.shift == 32 {
-            [oct, angle | sign]
-        } else {
-            [oct | angle.shl(self.shift) | sign, V::Int::splat(0)]
-        }
+        self.pack::<V>(oct, angle, frame.negative)
     }
 
     #[inline(always)]
-    fn decode<V: Simd>(self, [low, high]: [V::Int; 2]) -> Decoded<V> {
+    fn decode<V: Simd>(self, code: [V::Int; 2]) -> Decoded<V> {
+        let [low, _] = code;
         let normal = self.oct.decode::<V>(low);
-        let (angle, last) =
-            if self.shift == 32 { (high, high) } else { (low.shr_logical(self.shift), low) };
+        let [angle, last] = self.angle_and_sign::<V>(code);
         let tangent = unit_combination(self.angle.direction::<V>(angle), basis(normal));
         Decoded { normal, tangent, handedness: sign(last) }
     }
 
     #[inline(always)]
     fn canonical<V: Simd>(self, [low, high]: [V::Int; 2]) -> [V::Int; 2] {
-        let oct = self.oct.mirror::<V>(low, [false; 3]);
-        if self.shift == 32 {
-            [oct, high]
-        } else {
-            [oct | low.shr_logical(self.shift).shl(self.shift), high]
-        }
+        let [rest_low, rest_high] = self.rest;
+        [self.oct.mirror::<V>(low, [false; 3]) | (low & rest_low), high & rest_high]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::{I32x1, Vec3};
+    use crate::simd::Vec3;
 
     const BITS32: OctAngle = OctAngle::new(22, 9);
     const BITS64: OctAngle = OctAngle::new(32, 31);
@@ -128,6 +176,32 @@ mod tests {
         let decoded = BITS32.decode::<f32>([I32x1(1023 | 128 << 22), I32x1(0)]);
         assert_eq!(decoded.normal, Vec3::new(1.0, 0.0, 0.0));
         assert_eq!(decoded.tangent, Vec3::new(0.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn an_angle_may_lie_in_both_words() {
+        // 20 bits of normal, 24 of angle, and the sign.
+        let split = OctAngle::new(20, 24);
+        let code = split.pack_parameters([-1, 2], 0xAB_CDEF, true).map(|word| word.0 as u32);
+        assert_eq!(code, [0xDEF0_0BFF, 0x1ABC]);
+        let code = code.map(|word| I32x1(word as i32));
+        assert_eq!(split.unpack_parameters(code), ([-1, 2], 0xAB_CDEF, true));
+        // What is above the sign does not count.
+        let [low, high] = code;
+        assert_eq!(split.canonical::<f32>([low, high | 0x7FFF_E000]), code);
+        assert_eq!(split.decode::<f32>([low, high | 0x7FFF_E000]).handedness, -1.0);
+        assert_eq!(split.decode::<f32>([low, I32x1(0x0ABC)]).handedness, 1.0);
+    }
+
+    #[test]
+    fn what_is_left_of_the_normals_word_is_the_angle() {
+        // The sign is the first word's highest bit, the second's lowest, and within the first.
+        for (oct, angle, code) in
+            [(24, 7, [0xFF00_0000, 0]), (24, 8, [0xFF00_0000, 1]), (16, 5, [0x003F_0000, 0])]
+        {
+            let all = OctAngle::new(oct, angle).pack_parameters([0, 0], u32::MAX, true);
+            assert_eq!(all.map(|word| word.0 as u32), code);
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::plain::Plain;
 use super::smallest_three::SmallestThree;
 use super::{Soa4, Soa4Mut};
 use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{OneLane, Word, Words2};
+use crate::batch::storage::{DoubleWords, OneLane, Word, Words, Words2};
 use crate::error::{LengthMismatch, StrideMismatch};
 use crate::formula::support::bits::snorm_max;
 use crate::formula::support::sanitize::sanitize4;
@@ -44,27 +44,27 @@ enum Kind {
     Snorm,
 }
 
-/// Does something with the formula of a format, and the size of its codes.
+/// Does something with the formula of a format, and the kind of its codes.
 macro_rules! with_formula {
-    ($format:expr, |$formula:ident, $size:ident| $body:expr) => {
+    ($format:expr, |$formula:ident, $codes:ident| $body:expr) => {
         match ($format.kind, $format.bits) {
             (Kind::SmallestThree, bits) if bits <= 10 => {
-                const $size: usize = 4;
+                type $codes = Words;
                 let $formula = SmallestThree::<OneWord>::in_one_word(bits);
                 $body
             }
             (Kind::SmallestThree, bits) => {
-                const $size: usize = 8;
+                type $codes = DoubleWords;
                 let $formula = SmallestThree::<TwoWords>::in_two_words(bits, 3 * bits);
                 $body
             }
             (Kind::Snorm, bits) if bits <= 8 => {
-                const $size: usize = 4;
+                type $codes = Words;
                 let $formula = Plain::<Word>::in_one_word(bits);
                 $body
             }
             (Kind::Snorm, bits) => {
-                const $size: usize = 8;
+                type $codes = DoubleWords;
                 let $formula = Plain::<Words2>::in_two_words(bits);
                 $body
             }
@@ -110,10 +110,16 @@ impl QuaternionFormat {
         }
     }
 
-    /// Size of a code in bytes: 4, or 8 above 32 bits.
+    /// Size of a code in bytes: 2, 3, 4, 6 or 8, the least that holds its bits.
     #[inline]
     pub const fn code_size(self) -> usize {
-        if self.bits() <= 32 { 4 } else { 8 }
+        match self.bits() {
+            0..=16 => 2,
+            17..=24 => 3,
+            25..=32 => 4,
+            33..=48 => 6,
+            _ => 8,
+        }
     }
 
     /// A bound of the greatest error of `encode`, in degrees of rotation.
@@ -144,19 +150,19 @@ impl QuaternionFormat {
     /// Packs a quaternion of any length, rounding each component to nearest, ties to even.
     #[inline]
     pub fn encode(self, q: [f32; 4]) -> u64 {
-        with_formula!(self, |formula, _SIZE| formula.encode::<f32>(sanitize4(q)).to_u64())
+        with_formula!(self, |formula, _Codes| formula.encode::<f32>(sanitize4(q)).to_u64())
     }
 
     /// Packs a quaternion of any length into the code that decodes closest to its rotation, up to `f32` rounding.
     #[inline]
     pub fn encode_precise(self, q: [f32; 4]) -> u64 {
-        with_formula!(self, |formula, _SIZE| formula.encode_precise::<f32>(sanitize4(q)).to_u64())
+        with_formula!(self, |formula, _Codes| formula.encode_precise::<f32>(sanitize4(q)).to_u64())
     }
 
     /// Unpacks a code, any bit pattern, into a quaternion of length 1 to 2.5e-7.
     #[inline]
     pub fn decode(self, code: u64) -> [f32; 4] {
-        with_formula!(self, |formula, _SIZE| formula.decode::<f32>(OneLane::from_u64(code)))
+        with_formula!(self, |formula, _Codes| formula.decode::<f32>(OneLane::from_u64(code)))
     }
 
     /// [`decode`](QuaternionFormat::decode), or the opposite if that is nearer to `previous`: see
@@ -169,7 +175,7 @@ impl QuaternionFormat {
     /// The code that `encode_precise` gives for the rotation of `code`, any bit pattern.
     #[inline]
     pub fn canonical(self, code: u64) -> u64 {
-        with_formula!(self, |formula, _SIZE| {
+        with_formula!(self, |formula, _Codes| {
             formula.canonical::<f32>(OneLane::from_u64(code)).to_u64()
         })
     }
@@ -295,16 +301,20 @@ impl QuaternionFormat {
 
     #[inline(never)]
     fn encode_batch(self, q: Vectors<'_, 4>, codes: CodesMut<'_>) {
-        with_formula!(self, |formula, SIZE| formula::encode::<_, SIZE, false>(formula, q, codes));
+        with_formula!(self, |formula, Stored| formula::encode::<_, Stored, false>(
+            formula, q, codes
+        ));
     }
 
     #[inline(never)]
     fn encode_batch_precise(self, q: Vectors<'_, 4>, codes: CodesMut<'_>) {
-        with_formula!(self, |formula, SIZE| formula::encode::<_, SIZE, true>(formula, q, codes));
+        with_formula!(self, |formula, Stored| formula::encode::<_, Stored, true>(
+            formula, q, codes
+        ));
     }
 
     #[inline(never)]
     fn decode_batch(self, codes: Codes<'_>, q: VectorsMut<'_, 4>) {
-        with_formula!(self, |formula, SIZE| formula::decode::<_, SIZE>(formula, codes, q));
+        with_formula!(self, |formula, Stored| formula::decode::<_, Stored>(formula, codes, q));
     }
 }

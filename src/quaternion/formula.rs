@@ -2,7 +2,7 @@
 
 use crate::batch::columns::{CodeColumn, Columns};
 use crate::batch::layout::{self, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{CodeBytes, CodeKind, CodeShape, ShapeIn};
+use crate::batch::storage::{CodeKind, CodeShape, ShapeIn};
 use crate::batch::{Kernel, map, run};
 use crate::formula::support::sanitize::sanitize4;
 use crate::simd::{Simd, Use};
@@ -63,27 +63,23 @@ impl<R: Rotation, K: CodeKind<Shape = R::Shape>> Kernel<CodeColumn<K>, Columns<4
 }
 
 #[inline(always)]
-pub(super) fn encode<R: Rotation, const N: usize, const PRECISE: bool>(
+pub(super) fn encode<R: Rotation, K: CodeKind<Shape = R::Shape>, const PRECISE: bool>(
     rotation: R,
     quaternions: Vectors<'_, 4>,
     codes: CodesMut<'_>,
-) where
-    [u8; N]: CodeBytes<Shape = R::Shape>,
-{
+) {
     layout::encode(quaternions, codes, &mut |q, codes| {
-        map::<Columns<4>, CodeColumn<[u8; N]>>(Encode::<R, PRECISE>(rotation), q, codes);
+        map::<Columns<4>, CodeColumn<K>>(Encode::<R, PRECISE>(rotation), q, codes);
     });
 }
 
 #[inline(always)]
-pub(super) fn decode<R: Rotation, const N: usize>(
+pub(super) fn decode<R: Rotation, K: CodeKind<Shape = R::Shape>>(
     rotation: R,
     codes: Codes<'_>,
     quaternions: VectorsMut<'_, 4>,
-) where
-    [u8; N]: CodeBytes<Shape = R::Shape>,
-{
+) {
     layout::decode(codes, quaternions, &mut |codes, q, fence| {
-        run::<CodeColumn<[u8; N]>, Columns<4>>(Decode(rotation), codes, q, fence);
+        run::<CodeColumn<K>, Columns<4>>(Decode(rotation), codes, q, fence);
     });
 }

@@ -17,6 +17,7 @@ mod error_report;
 mod exhaustive;
 mod fibonacci;
 mod frame;
+mod frame_splits;
 mod golden;
 mod low_dimensions;
 mod max_error;

@@ -195,6 +195,59 @@ fn a_quaternion_is_canonical_less_than_a_step_off() {
     assert!(!QTangent64::is_canonical([2626, -30423, -11237, 3876]));
 }
 
+/// Codes of a few splits, alone and in bytes, come back; some are known.
+#[test]
+fn splits_agree_with_single_frames() {
+    let frames = frames();
+    let columns = columns(&frames);
+    for (oct, angle, size) in
+        [(8, 7, 2), (14, 8, 3), (24, 7, 4), (22, 9, 4), (32, 15, 6), (20, 22, 6), (32, 31, 8)]
+    {
+        let format = OctAngleFormat::new(oct, angle).unwrap();
+        assert_eq!((format.bits(), format.code_size()), (oct + angle + 1, size));
+        for precise in [false, true] {
+            let one = |frame: &Frame| match precise {
+                false => format.encode(*frame),
+                true => format.encode_precise(*frame),
+            };
+            let codes: Vec<u64> = frames.iter().map(one).collect();
+            let expected: Vec<u8> =
+                codes.iter().flat_map(|code| code.to_le_bytes()[..size].to_vec()).collect();
+            let mut bytes = vec![0xEE; size * frames.len()];
+            if precise {
+                format.encode_soa_precise(soa(&columns), &mut bytes).unwrap();
+            } else {
+                format.encode_soa(soa(&columns), &mut bytes).unwrap();
+            }
+            assert_eq!(bytes, expected);
+            let mut decoded = [0; 7].map(|_| vec![9.0; frames.len()]);
+            format.decode_soa(&bytes, soa_mut(&mut decoded)).unwrap();
+            for (i, (&code, frame)) in codes.iter().zip(&frames).enumerate() {
+                let one = format.decode(code);
+                assert_eq!(
+                    [0, 1, 2, 3, 4, 5, 6].map(|c: usize| decoded[c][i].to_bits()),
+                    bits(one)
+                );
+                assert!(format.is_canonical(code) && code >> (format.bits() - 1) <= 1);
+                assert_eq!(one.handedness < 0.0, frame.handedness < 0.0);
+                if angle < 24 {
+                    assert_eq!(format.encode(one), code);
+                }
+                let (u, v, turn, negative) = format.parameters(code);
+                assert_eq!(format.from_parameters(u, v, turn, negative), code);
+            }
+            let other = match (oct, angle) {
+                (22, 9) => frames.iter().map(|f| OctAngle32::encode(*f).into()).collect(),
+                (32, 31) => frames.iter().map(|f| OctAngle64::encode(*f)).collect(),
+                _ => codes.clone(),
+            };
+            assert!(precise || codes == other);
+        }
+    }
+    let [b1, b2] = basis([0.0, 0.0, -3.0]);
+    assert_eq!((b1, b2), ([1.0, 0.0, 0.0], [0.0, -1.0, 0.0]));
+}
+
 fn refused<T: Debug + PartialEq>(
     outcome: Result<T, LengthMismatch>,
     error: LengthMismatch,

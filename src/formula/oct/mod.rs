@@ -74,13 +74,26 @@ impl<P: Projection> Oct<P> {
         Oct { pair, steps, map: PhantomData }
     }
 
+    /// The parameters in two's complement, the first in the low bits, at 24 bits too.
+    pub(crate) const fn plain(bits: u32) -> Self {
+        let pair = Pair::plain(bits);
+        Oct { pair, steps: Steps::new(pair.snorm_max()), map: PhantomData }
+    }
+
     pub(crate) const fn steps(self) -> Steps {
         self.steps
     }
 
+    /// The code of a point of the square, whose parameters are clamped.
+    #[inline(always)]
+    pub(crate) fn pack<V: Simd>(self, params: [V::Int; 2]) -> V::Int {
+        let max = self.steps.count;
+        self.pair.pack_snorm::<V>(map2!(params, |p| p.clamp(-max, max)))
+    }
+
     /// The point of the square.
     #[inline(always)]
-    fn unpack<V: Simd>(self, code: V::Int) -> [V::Int; 2] {
+    pub(crate) fn unpack<V: Simd>(self, code: V::Int) -> [V::Int; 2] {
         let max = self.steps.count;
         let params = self.pair.unpack_snorm::<V>(code);
         if max == self.pair.snorm_max() {
@@ -264,6 +277,20 @@ mod tests {
         // The steps of sixoct16 are 126.
         assert_eq!(mirror(SIXOCT16, 0x007F, [false; 3]), 0x007E);
         assert_eq!(mirror(SIXOCT16, 0x8000, [false; 3]), 0x8200);
+    }
+
+    #[test]
+    fn plain_codes_differ_only_in_their_layout() {
+        let (plain, rgb8) = (Oct::<Central>::plain(24), Oct::<Central>::new(24));
+        let code = plain.encode::<f32>([1.0, -2.0, 2.0].into());
+        // 2047 / 5 = 409.4 and 818.8.
+        assert_eq!(code.0, 0xCC_D199);
+        let same = rgb8.encode::<f32>([1.0, -2.0, 2.0].into());
+        assert_eq!(plain.decode::<f32>(code), rgb8.decode::<f32>(same));
+        let params = plain.unpack::<f32>(code);
+        assert_eq!(params.map(|p| p.0), [409, -819]);
+        assert_eq!(plain.pack::<f32>(params), code);
+        assert_eq!(plain.pack::<f32>([9999.into(), (-9999).into()]).0, 0x80_17FF);
     }
 
     #[test]

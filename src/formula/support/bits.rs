@@ -2,18 +2,24 @@
 
 use crate::simd::{Simd, SimdInt, map2};
 
-/// Two parameters of half the bits each, the first in the low bits. At 24 bits, the RGB8 bytes of the
-/// survey's Listing 4 (Cigolle et al. 2014): `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
+/// Two parameters of half the bits each, the first in the low bits. At 24 bits, unless [`plain`](Pair::plain), the RGB8
+/// bytes of the survey's Listing 4 (Cigolle et al. 2014): `[u >> 4, (u & 15) << 4 | v >> 8, v & 255]`.
 #[derive(Clone, Copy)]
 pub(crate) struct Pair {
     /// Bits of one parameter.
     half: u32,
+    is_rgb8: bool,
 }
 
 impl Pair {
     /// Parameters of a code of `bits` bits.
     pub(crate) const fn new(bits: u32) -> Self {
-        Pair { half: bits / 2 }
+        Pair { half: bits / 2, is_rgb8: bits == 24 }
+    }
+
+    /// Two's complement in the order of the bits, at 24 bits too.
+    pub(crate) const fn plain(bits: u32) -> Self {
+        Pair { half: bits / 2, is_rgb8: false }
     }
 
     /// Greatest snorm parameter M; the least is -M.
@@ -26,14 +32,10 @@ impl Pair {
         unorm_max(self.half)
     }
 
-    const fn is_rgb8(self) -> bool {
-        self.half == 12
-    }
-
     /// The low bits of two parameters.
     #[inline(always)]
     pub(crate) fn pack<V: Simd>(self, [u, v]: [V::Int; 2]) -> V::Int {
-        if self.is_rgb8() {
+        if self.is_rgb8 {
             let green = u.low_bits(4).shl(4) | v.low_bits(12).shr_logical(8);
             u.low_bits(12).shr_logical(4) | green.shl(8) | v.low_bits(8).shl(16)
         } else {
@@ -44,7 +46,7 @@ impl Pair {
     /// The parameters, without sign.
     #[inline(always)]
     pub(crate) fn unpack<V: Simd>(self, code: V::Int) -> [V::Int; 2] {
-        if self.is_rgb8() {
+        if self.is_rgb8 {
             let u = code.low_bits(8).shl(4) | code.shr_logical(12).low_bits(4);
             let v = code.shr_logical(8).low_bits(4).shl(8) | code.shr_logical(16).low_bits(8);
             [u, v]
@@ -56,7 +58,7 @@ impl Pair {
     /// Two snorm parameters: two's complement, but at 24 bits biased by M as in the survey's listings.
     #[inline(always)]
     pub(crate) fn pack_snorm<V: Simd>(self, params: [V::Int; 2]) -> V::Int {
-        if self.is_rgb8() {
+        if self.is_rgb8 {
             self.pack::<V>(map2!(params, |p| p + snorm_max(12)))
         } else {
             self.pack::<V>(params)
@@ -67,7 +69,7 @@ impl Pair {
     /// neighbour.
     #[inline(always)]
     pub(crate) fn unpack_snorm<V: Simd>(self, code: V::Int) -> [V::Int; 2] {
-        if self.is_rgb8() {
+        if self.is_rgb8 {
             map2!(self.unpack::<V>(code), |p| (p - snorm_max(12)).min(snorm_max(12)))
         } else {
             map2!([0, self.half], |at| snorm_field::<V>(code, at, self.half))
@@ -110,6 +112,19 @@ mod tests {
                 assert_eq!(pair.unpack_snorm::<f32>(code), params.map(I32x1));
             }
         }
+    }
+
+    #[test]
+    fn plain_pairs_have_one_order_at_every_width() {
+        let code = Pair::plain(24).pack_snorm::<f32>([I32x1(0x123), I32x1(-0x123)]);
+        assert_eq!(code.0, 0xED_D123);
+        for params in [[0, 0], [2047, -2047], [-1, 1]] {
+            let code = Pair::plain(24).pack_snorm::<f32>(params.map(I32x1));
+            assert_eq!(Pair::plain(24).unpack_snorm::<f32>(code), params.map(I32x1));
+        }
+        let [plain, usual] =
+            [Pair::plain(22), Pair::new(22)].map(|p| p.pack_snorm::<f32>([I32x1(5), I32x1(-9)]));
+        assert_eq!(plain, usual);
     }
 
     #[test]

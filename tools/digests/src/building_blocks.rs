@@ -7,7 +7,8 @@ use bytemuck::{Pod, Zeroable, bytes_of, bytes_of_mut};
 use unitpack::decode_table::{OctantTable, SignSymmetric};
 use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::frame::{
-    Frame, FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, QTangent64,
+    Frame, FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, OctAngleFormat, QTangent64,
+    basis,
 };
 use unitpack::low_dimensions::Angle;
 use unitpack::packing::{
@@ -64,6 +65,13 @@ pub fn report() {
     frames::<OctAngle32>();
     frames::<OctAngle64>();
     frames::<QTangent64>();
+    let mut row = Row::new();
+    for (oct, angle) in
+        [(8, 7), (14, 1), (12, 9), (24, 7), (30, 2), (24, 15), (32, 15), (20, 24), (32, 31)]
+    {
+        row.frame_split(OctAngleFormat::new(oct, angle).expect("a split that there is"));
+    }
+    row.print("octangle-splits");
     let mut row = Row::new();
     row.snorm12x2();
     row.print("snorm12x2");
@@ -315,6 +323,53 @@ impl Row {
             self.decode.floats(&[frame.handedness]);
         }
         digest_codes(&codes.map(C::canonical), &mut self.decode);
+    }
+
+    fn frame_split(&mut self, format: OctAngleFormat) {
+        let frames: [Frame; LEN] = array::from_fn(|_| self.frame());
+        let [nx, ny, nz] = [0, 1, 2].map(|i: usize| frames.map(|f| f.normal[i]));
+        let [tx, ty, tz] = [0, 1, 2].map(|i: usize| frames.map(|f| f.tangent[i]));
+        let (normal, tangent) = (Soa { x: &nx, y: &ny, z: &nz }, Soa { x: &tx, y: &ty, z: &tz });
+        let soa = FrameSoa { normal, tangent, handedness: &frames.map(|f| f.handedness) };
+        let mut bytes = [0; 8 * LEN];
+        let bytes = &mut bytes[..format.code_size() * LEN];
+        let skew = format.encode_soa(soa, bytes).expect("lengths that fit");
+        self.encode.bytes(bytes);
+        self.encode.words([skew.index as u32]);
+        self.encode.floats(&[skew.degrees]);
+        format.encode_soa_precise(soa, bytes).expect("lengths that fit");
+        self.encode.bytes(bytes);
+        for frame in frames {
+            self.encode.bytes(&format.encode(frame).to_le_bytes());
+            self.encode.bytes(&format.encode_precise(frame).to_le_bytes());
+        }
+
+        self.random.codes(format.code_size(), bytes);
+        let [mut nx, mut ny, mut nz] = [[0.0; LEN]; 3];
+        let [mut tx, mut ty, mut tz] = [[0.0; LEN]; 3];
+        let mut handedness = [0.0; LEN];
+        let soa = FrameSoaMut {
+            normal: SoaMut { x: &mut nx, y: &mut ny, z: &mut nz },
+            tangent: SoaMut { x: &mut tx, y: &mut ty, z: &mut tz },
+            handedness: &mut handedness,
+        };
+        format.decode_soa(bytes, soa).expect("lengths that fit");
+        for column in [&nx, &ny, &nz, &tx, &ty, &tz, &handedness] {
+            self.decode.floats(column);
+        }
+        for code in bytes.chunks_exact(format.code_size()) {
+            let mut word = [0; 8];
+            word[..code.len()].copy_from_slice(code);
+            let code = u64::from_le_bytes(word);
+            let frame = format.decode(code);
+            self.decode.floats(&frame.normal);
+            self.decode.floats(&frame.tangent);
+            self.decode.floats(basis(frame.normal).as_flattened());
+            let (u, v, angle, negative) = format.parameters(code);
+            self.decode.words([u as u32, v as u32, angle, u32::from(negative)]);
+            self.decode.bytes(&format.from_parameters(u, v, angle, negative).to_le_bytes());
+            self.decode.bytes(&format.canonical(code).to_le_bytes());
+        }
     }
 
     fn snorm12x2(&mut self) {

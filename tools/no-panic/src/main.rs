@@ -25,7 +25,8 @@ use bytemuck::Zeroable;
 use unitpack::decode_table::{DecodeTable, FormatTable, OctantTable, SignSymmetric};
 use unitpack::dither::{Dither, StochasticRounding};
 use unitpack::frame::{
-    Frame, FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, QTangent64,
+    Frame, FrameCodec, FrameSoa, FrameSoaMut, OctAngle32, OctAngle64, OctAngleFormat, QTangent64,
+    basis,
 };
 use unitpack::low_dimensions::{Angle, Sign};
 use unitpack::packing::*;
@@ -251,6 +252,13 @@ fn errors() {
         LengthMismatch::Angles { x: a, y: b, codes: c },
         LengthMismatch::Quaternions { x: a, y: b, z: c, w: d, codes: a },
         LengthMismatch::FrameSoa { normal: [a, b, c], tangent: [a, b, c], handedness: d, codes: a },
+        LengthMismatch::FrameBytes {
+            normal: [a, b, c],
+            tangent: [a, b, c],
+            handedness: d,
+            bytes: a,
+            code_size: b,
+        },
         LengthMismatch::FrameAos { normals: a, tangents: b, codes: c },
     ]) {
         display::<LengthMismatch>(error);
@@ -605,7 +613,60 @@ fn frame_structures<C: FrameCodec, const N: usize>(codes: &mut [C::Code]) {
     black_box(<C as FrameCodec>::decode_aos(codes, normals, tangents).is_ok());
 }
 
+/// All entry points of a frame format chosen at run time.
+fn frame_splits() {
+    let Some(format) = OctAngleFormat::new(black_box(24), black_box(7)) else { return };
+    black_box(OctAngleFormat::bits(format));
+    black_box(OctAngleFormat::oct_bits(format));
+    black_box(OctAngleFormat::angle_bits(format));
+    black_box(OctAngleFormat::max_normal_error_degrees(format));
+    black_box(OctAngleFormat::max_normal_error_precise_degrees(format));
+    black_box(OctAngleFormat::max_tangent_error_degrees(format));
+    black_box(OctAngleFormat::max_tangent_error_precise_degrees(format));
+    let frame = Frame { normal: [0.0, 0.6, 0.8], tangent: [1.0, 0.0, 0.0], handedness: 1.0 };
+    black_box(OctAngleFormat::encode(format, black_box(frame)));
+    black_box(OctAngleFormat::encode_precise(format, black_box(frame)));
+    black_box(OctAngleFormat::decode(format, black_box(0)));
+    black_box(OctAngleFormat::canonical(format, black_box(0)));
+    black_box(OctAngleFormat::is_canonical(format, black_box(0)));
+    let [u, v] = black_box([1, -1]);
+    black_box(OctAngleFormat::from_parameters(format, u, v, black_box(9), black_box(true)));
+    black_box(OctAngleFormat::parameters(format, black_box(0)));
+    derived::<OctAngleFormat>(format);
+
+    let (mut normal, mut tangent) = (Buffers::new(), Buffers::new());
+    let (bytes, handedness) = (&mut [0; 8 * LEN], &mut [1.0; LEN]);
+    let (bytes, handedness) = (opaque(bytes), opaque(handedness));
+    let size = LEN * OctAngleFormat::code_size(format);
+    let bytes = bytes.get_mut(..size).unwrap_or_default();
+    for precise in black_box([false, true]) {
+        let handedness = black_box(&*handedness);
+        let frames = FrameSoa { normal: normal.read(), tangent: tangent.read(), handedness };
+        let bytes = black_box(&mut *bytes);
+        let skew = if precise {
+            OctAngleFormat::encode_soa_precise(format, frames, bytes)
+        } else {
+            OctAngleFormat::encode_soa(format, frames, bytes)
+        };
+        black_box(skew.is_ok());
+    }
+    let frames = FrameSoaMut { normal: normal.write(), tangent: tangent.write(), handedness };
+    black_box(OctAngleFormat::decode_soa(format, black_box(bytes), frames).is_ok());
+    let (a, b, c) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+    let skew = OctAngleFormat::encode_strided(format, strided(a), strided(b), strided_mut(c));
+    black_box(skew.is_ok());
+    let skew =
+        OctAngleFormat::encode_strided_precise(format, strided(a), strided(b), strided_mut(c));
+    black_box(skew.is_ok());
+    let (v, tangent) = (strided_mut(b), black_box(20));
+    black_box(OctAngleFormat::decode_vertices(format, strided(a), v, tangent).is_ok());
+    let (normals, tangents) = (strided_mut(b), strided_mut(c));
+    black_box(OctAngleFormat::decode_strided(format, strided(a), normals, tangents).is_ok());
+}
+
 fn all_frames() {
+    frame_splits();
+    black_box(basis(black_box([0.0, 0.6, 0.8])));
     frames::<OctAngle32>();
     frames::<OctAngle64>();
     frames::<QTangent64>();
