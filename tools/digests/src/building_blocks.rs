@@ -16,11 +16,13 @@ use unitpack::packing::{
     unpack_snorm12x2_slice,
 };
 use unitpack::quaternion::{
-    QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
+    QuaternionCodec, QuaternionFormat, SmallestThree32, SmallestThree48, SmallestThree64, Soa4,
+    Soa4Mut, TanThree32,
 };
 use unitpack::scalar::{BiasedUnorm, Fixed, Scalar, Snorm, Unorm};
 use unitpack::{
-    CodeInt, Codec, HemiOct16, Oct16, Soa, SoaMut, SphericalFibonacci, WarpedCube16, for_each_codec,
+    CodeInt, Codec, Format, HemiOct16, Oct16, Oct24, OrNone, Snorm8x3, Snorm16x3, SnormFormat, Soa,
+    SoaMut, SphericalFibonacci, WarpedCube16, for_each_codec,
 };
 
 use crate::LEN;
@@ -50,6 +52,26 @@ pub fn report() {
     Row::quaternion::<SmallestThree48>();
     Row::quaternion::<SmallestThree64>();
     Row::quaternion::<TanThree32>();
+    let mut row = Row::new();
+    for bits in [4, 7, 9, 12, 15, 20] {
+        row.quaternion_format(QuaternionFormat::smallest_three(bits).expect("4 to 20"), true);
+    }
+    // The nearest takes as many steps as there are lengths.
+    for bits in [4, 5, 6, 8, 11, 12, 16] {
+        row.quaternion_format(QuaternionFormat::snorm(bits).expect("4 to 16"), bits <= 11);
+    }
+    row.print("quaternion-formats");
+    let mut row = Row::new();
+    for bits in [4, 7, 9, 11, 14] {
+        row.snorm_format(SnormFormat::new(bits).expect("4 to 16"), bits <= 11);
+    }
+    row.print("snorm-formats");
+    let mut row = Row::new();
+    row.or_none::<Oct16>().or_none::<Oct24>().or_none::<Snorm8x3>().or_none::<Snorm16x3>();
+    row.print("or-none");
+    let mut row = Row::new();
+    row.parameters();
+    row.print("parameters");
     let mut row = Row::new();
     row.fibonacci(1).fibonacci(21).fibonacci(1000).fibonacci(1 << 20).fibonacci(1 << 24);
     row.print("fibonacci");
@@ -96,6 +118,13 @@ fn frames<C: FrameCodec>() {
         row.frames::<C>();
     }
     row.print(C::NAME);
+}
+
+/// Of little-endian bytes.
+fn integer(bytes: &[u8]) -> u64 {
+    let mut word = [0; 8];
+    word[..bytes.len()].copy_from_slice(bytes);
+    u64::from_le_bytes(word)
 }
 
 /// As little-endian bytes.
@@ -219,6 +248,114 @@ impl Row {
             row.quaternion_block::<C>();
         }
         row.print(C::NAME);
+    }
+
+    fn quaternion_format(&mut self, format: QuaternionFormat, precise: bool) {
+        let mut decoded = [0.0; 4];
+        let q: [[f32; 4]; LEN] = array::from_fn(|i| {
+            match i % 3 {
+                // Any, two of a pair opposite, and on the grid.
+                0 => decoded = array::from_fn(|_| self.random.number()),
+                1 => decoded[i % 4] = -decoded[(i + 1) % 4],
+                _ => {
+                    let mut code = [0; 8];
+                    self.random.codes(8, &mut code);
+                    decoded = format.decode(u64::from_le_bytes(code));
+                }
+            }
+            decoded
+        });
+        let [x, y, z, w] = [0, 1, 2, 3].map(|c: usize| q.map(|q| q[c]));
+        let soa = Soa4 { x: &x, y: &y, z: &z, w: &w };
+        let mut bytes = [0; 8 * LEN];
+        let bytes = &mut bytes[..format.code_size() * LEN];
+        format.encode_soa(soa, bytes).expect("lengths that fit");
+        self.encode.bytes(bytes);
+        for q in q {
+            self.encode.bytes(&format.encode(q).to_le_bytes());
+        }
+        if precise {
+            format.encode_soa_precise(soa, bytes).expect("lengths that fit");
+            self.encode.bytes(bytes);
+            for &q in q.iter().step_by(16) {
+                self.encode.bytes(&format.encode_precise(q).to_le_bytes());
+            }
+        }
+
+        self.random.codes(format.code_size(), bytes);
+        let [mut x, mut y, mut z, mut w] = [[0.0; LEN]; 4];
+        let soa = Soa4Mut { x: &mut x, y: &mut y, z: &mut z, w: &mut w };
+        format.decode_soa(bytes, soa).expect("lengths that fit");
+        for component in [&x, &y, &z, &w] {
+            self.decode.floats(component);
+        }
+        let mut track = q;
+        format.decode_track(bytes, q[0], &mut track).expect("lengths that fit");
+        self.decode.floats(track.as_flattened());
+        for code in bytes.chunks_exact(format.code_size()) {
+            let code = integer(code);
+            self.decode.floats(&format.decode(code));
+            if precise {
+                self.decode.bytes(&format.canonical(code).to_le_bytes());
+            }
+        }
+    }
+
+    fn snorm_format(&mut self, format: SnormFormat, precise: bool) {
+        let [x, y, z] = [(); 3].map(|()| self.numbers());
+        let v = Soa { x: &x, y: &y, z: &z };
+        let mut bytes = [0; 8 * LEN];
+        let bytes = &mut bytes[..format.code_size() * LEN];
+        format.encode_soa(v, bytes).expect("lengths that fit");
+        self.encode.bytes(bytes);
+        if precise {
+            format.encode_soa_precise(v, bytes).expect("lengths that fit");
+            self.encode.bytes(bytes);
+        }
+        self.random.codes(format.code_size(), bytes);
+        let [mut x, mut y, mut z] = [[0.0; LEN]; 3];
+        let v = SoaMut { x: &mut x, y: &mut y, z: &mut z };
+        format.decode_soa(bytes, v).expect("lengths that fit");
+        for component in [&x, &y, &z] {
+            self.decode.floats(component);
+        }
+        for code in bytes.chunks_exact(format.code_size()) {
+            let v = format.decode(integer(code));
+            self.decode.floats(&v);
+            self.encode.bytes(&format.encode(v).to_le_bytes());
+        }
+    }
+
+    fn or_none<C: Codec>(&mut self) -> &mut Self {
+        let v: [[f32; 3]; LEN] = array::from_fn(|i| match i % 5 {
+            0 => [0.0; 3],
+            1 => [f32::NAN, 1.0, 0.0],
+            _ => [(); 3].map(|()| self.random.number()),
+        });
+        let mut codes = [C::Code::zeroed(); LEN];
+        OrNone::<C>::encode_aos(&v, &mut codes).expect("lengths that fit");
+        digest_codes(&codes, &mut self.encode);
+        digest_codes(&v.map(OrNone::<C>::encode_precise), &mut self.encode);
+        let mut v = [[0.0; 3]; LEN];
+        OrNone::<C>::decode_aos(&codes, &mut v).expect("lengths that fit");
+        self.decode.floats(v.as_flattened());
+        OrNone::<C>::negate_slice(&mut codes);
+        digest_codes(&codes, &mut self.decode);
+        self
+    }
+
+    fn parameters(&mut self) {
+        for &format in Format::ALL {
+            let [code, u, v] = [(); 3].map(|()| self.random.bits());
+            if let Some(parameters) = format.parameters(code) {
+                self.decode.words(parameters.map(|p| p as u32));
+            }
+            for shift in [0, 16, 26] {
+                let parameters = [u, v].map(|bits| bits as i32 >> shift);
+                self.encode.words([format.from_parameters(parameters).unwrap_or(u32::MAX)]);
+            }
+            self.encode.bytes(format.none().unwrap_or_default());
+        }
     }
 
     fn quaternion_block<C: QuaternionCodec>(&mut self) {
@@ -358,9 +495,7 @@ impl Row {
             self.decode.floats(column);
         }
         for code in bytes.chunks_exact(format.code_size()) {
-            let mut word = [0; 8];
-            word[..code.len()].copy_from_slice(code);
-            let code = u64::from_le_bytes(word);
+            let code = integer(code);
             let frame = format.decode(code);
             self.decode.floats(&frame.normal);
             self.decode.floats(&frame.tangent);

@@ -536,6 +536,10 @@ fn quaternions<C: QuaternionCodec>() {
     black_box(<C as QuaternionCodec>::decode(black_box(C::Code::zeroed())));
     black_box(<C as QuaternionCodec>::canonical(black_box(C::Code::zeroed())));
     black_box(<C as QuaternionCodec>::is_canonical(black_box(C::Code::zeroed())));
+    black_box(<C as QuaternionCodec>::decode_near(
+        black_box(C::Code::zeroed()),
+        black_box([0.5; 4]),
+    ));
 
     let mut codes = [C::Code::zeroed(); LEN];
     let codes = opaque(&mut codes);
@@ -550,6 +554,8 @@ fn quaternions<C: QuaternionCodec>() {
     black_box(<C as QuaternionCodec>::encode_aos(aos, codes).is_ok());
     black_box(<C as QuaternionCodec>::encode_aos_precise(aos, codes).is_ok());
     black_box(<C as QuaternionCodec>::decode_aos(codes, aos).is_ok());
+    black_box(<C as QuaternionCodec>::decode_aos_near(codes, aos).is_ok());
+    black_box(<C as QuaternionCodec>::decode_track(codes, black_box([0.5; 4]), aos).is_ok());
     let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
     black_box(<C as QuaternionCodec>::encode_strided(strided(a), strided_mut(b)).is_ok());
     black_box(<C as QuaternionCodec>::encode_strided_precise(strided(a), strided_mut(b)).is_ok());
@@ -561,6 +567,90 @@ fn all_quaternions() {
     quaternions::<SmallestThree48>();
     quaternions::<SmallestThree64>();
     quaternions::<TanThree32>();
+}
+
+/// All entry points of a format of rotations chosen at run time.
+fn quaternion_formats() {
+    let three = QuaternionFormat::smallest_three(black_box(9));
+    let snorm = QuaternionFormat::snorm(black_box(9));
+    let Some(format) = (if black_box(true) { three } else { snorm }) else { return };
+    black_box(QuaternionFormat::bits(format));
+    black_box(QuaternionFormat::code_size(format));
+    black_box(QuaternionFormat::max_error_degrees(format));
+    black_box(QuaternionFormat::max_error_precise_degrees(format));
+    black_box(QuaternionFormat::encode(format, black_box([0.5; 4])));
+    black_box(QuaternionFormat::encode_precise(format, black_box([0.5; 4])));
+    black_box(QuaternionFormat::decode(format, black_box(0)));
+    black_box(QuaternionFormat::decode_near(format, black_box(0), black_box([0.5; 4])));
+    black_box(QuaternionFormat::canonical(format, black_box(0)));
+    derived::<QuaternionFormat>(format);
+    let [mut x, mut y, mut z, mut w] = [[0.5; LEN]; 4];
+    let (x, y, z, w) = (opaque(&mut x), opaque(&mut y), opaque(&mut z), opaque(&mut w));
+    let q = Soa4 { x, y, z, w };
+    let (bytes, aos) = (&mut [0; 8 * LEN], &mut [[0.5; 4]; LEN]);
+    let (bytes, aos) = (opaque(bytes), opaque(aos));
+    black_box(QuaternionFormat::encode_soa(format, q, bytes).is_ok());
+    black_box(QuaternionFormat::encode_soa_precise(format, q, bytes).is_ok());
+    black_box(QuaternionFormat::decode_soa(format, bytes, Soa4Mut { x, y, z, w }).is_ok());
+    black_box(QuaternionFormat::decode_aos_near(format, bytes, aos).is_ok());
+    black_box(QuaternionFormat::decode_track(format, bytes, black_box([0.5; 4]), aos).is_ok());
+    let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+    black_box(QuaternionFormat::encode_strided(format, strided(a), strided_mut(b)).is_ok());
+    black_box(QuaternionFormat::encode_strided_precise(format, strided(a), strided_mut(b)).is_ok());
+    black_box(QuaternionFormat::decode_strided(format, strided(a), strided_mut(b)).is_ok());
+}
+
+/// All entry points of snorm of a width chosen at run time.
+fn snorm_formats() {
+    let Some(format) = SnormFormat::new(black_box(9)) else { return };
+    black_box(SnormFormat::component_bits(format));
+    black_box(SnormFormat::code_size(format));
+    black_box(SnormFormat::max_error_degrees(format));
+    black_box(SnormFormat::max_error_precise_degrees(format));
+    black_box(SnormFormat::encode(format, black_box([0.5; 3])));
+    black_box(SnormFormat::encode_precise(format, black_box([0.5; 3])));
+    black_box(SnormFormat::decode(format, black_box(0)));
+    derived::<SnormFormat>(format);
+    let (mut buffers, bytes) = (Buffers::new(), &mut [0; 8 * LEN]);
+    let bytes = opaque(bytes);
+    black_box(SnormFormat::encode_soa(format, buffers.read(), bytes).is_ok());
+    black_box(SnormFormat::encode_soa_precise(format, buffers.read(), bytes).is_ok());
+    black_box(SnormFormat::decode_soa(format, bytes, buffers.write()).is_ok());
+    let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+    black_box(SnormFormat::encode_strided(format, strided(a), strided_mut(b)).is_ok());
+    black_box(SnormFormat::encode_strided_precise(format, strided(a), strided_mut(b)).is_ok());
+    black_box(SnormFormat::decode_strided(format, strided(a), strided_mut(b)).is_ok());
+}
+
+/// A code for no vector, and codes of two parameters.
+fn codes_and_parameters() {
+    Everything.visit::<OrNone<Oct16>>();
+    Everything.visit::<OrNone<Oct24>>();
+    Everything.visit::<OrNone<Oct32>>();
+    Everything.visit::<OrNone<Snorm16x3>>();
+    derived::<OrNone<Oct16>>(OrNone::<Oct16>::new(Oct16));
+    for &format in black_box(Format::ALL) {
+        black_box(Format::none(format));
+        black_box(Format::from_parameters(format, black_box([1, -1])));
+        black_box(Format::parameters(format, black_box(0)));
+        if let Some(format) = Format::or_none(format) {
+            let (a, b) = (&mut [0; 24 * LEN], &mut [0; 24 * LEN]);
+            let order = black_box(AxisOrder::Zxy);
+            black_box(AxisOrder::encode_strided(order, format, strided(a), strided_mut(b)).is_ok());
+            black_box(
+                AxisOrder::encode_strided_precise(order, format, strided(a), strided_mut(b))
+                    .is_ok(),
+            );
+            black_box(AxisOrder::decode_strided(order, format, strided(a), strided_mut(b)).is_ok());
+        }
+    }
+    fn parameters<C: TwoParameters>() {
+        black_box(<C as TwoParameters>::from_parameters(black_box([1, -1])));
+        black_box(<C as TwoParameters>::parameters(black_box(C::Code::zeroed())));
+    }
+    parameters::<Oct16>();
+    parameters::<Oct24>();
+    parameters::<OctUnorm16x2>();
 }
 
 /// All entry points of one codec of frames.
@@ -715,6 +805,9 @@ fn all() {
     fibonacci();
     all_dithered();
     all_quaternions();
+    quaternion_formats();
+    snorm_formats();
+    codes_and_parameters();
     all_frames();
 }
 
