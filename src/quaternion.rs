@@ -1,5 +1,6 @@
 //! Rotations as unit quaternions in 32, 48 or 64 bits: [`SmallestThree32`], [`SmallestThree48`],
-//! [`SmallestThree64`] and [`TanThree32`], all [`QuaternionCodec`]s.
+//! [`SmallestThree64`] and [`TanThree32`], all [`QuaternionCodec`]s; and of any other width, as the smallest
+//! three or plain, with [`QuaternionFormat`].
 //!
 //! One component is left out, and three integers from -M to M, with M = 2^(b-1) - 1 for b bits, tell
 //! the others, in the order x, y, z, w:

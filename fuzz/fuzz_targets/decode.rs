@@ -30,6 +30,13 @@ fuzz_target!(|data: &[u8]| {
         let off = angle(widen(v), oracle.decode(code));
         assert!(off <= DECODE_ERROR, "{format} {code:x}: {v:?}, not {:?}", oracle.decode(code));
 
+        // Another pattern of the same two parameters is the same vector.
+        if let Some(parameters) = format.parameters(code as u32) {
+            let again = format.from_parameters(parameters).expect("a code of them");
+            assert_eq!(format.parameters(again), Some(parameters), "{format} {code:x}");
+            assert_eq!(bits((codec.decode)(again.into())), bits(v), "{format} {code:x}");
+        }
+
         // Bits above those of the format say nothing.
         let used = u128::MAX >> (128 - format.bits());
         for same in [code & used, code | last_pattern(format) & !used] {

@@ -6,8 +6,10 @@ use std::f64::consts::{FRAC_PI_4, SQRT_2};
 use bytemuck::{Zeroable, bytes_of, pod_read_unaligned};
 use libfuzzer_sys::fuzz_target;
 use unitpack::quaternion::{
-    QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
+    QuaternionCodec, QuaternionFormat, SmallestThree32, SmallestThree48, SmallestThree64, Soa4,
+    Soa4Mut, TanThree32,
 };
+use unitpack::{Strided, StridedMut};
 use unitpack_fuzz::Bytes;
 use unitpack_test::UNWRITTEN;
 
@@ -19,6 +21,18 @@ fuzz_target!(|data: &[u8]| {
     let codec = bytes.byte();
     let power = i32::from(bytes.byte() as i8);
     let given = bytes.rest::<16>();
+    // Widths that are chosen at run time.
+    if codec >= 64 {
+        let bits = 4 + u32::from(codec / 2 % 17);
+        return match if codec % 2 == 0 { QuaternionFormat::snorm(bits) } else { None } {
+            Some(format) => check_format(format, &given, &|code| plain(code, bits)),
+            None => check_format(
+                QuaternionFormat::smallest_three(bits).expect("4 to 20 bits"),
+                &given,
+                &|code| three(code, bits, 3 * bits).quaternion(false),
+            ),
+        };
+    }
     match codec % 4 {
         0 => check::<SmallestThree32>(power, &given, |c| three(u64::from(c), 10, 30), false),
         1 => check::<SmallestThree48>(power, &given, words, false),
@@ -198,5 +212,52 @@ fn batches<C: QuaternionCodec>(q: &[[f32; 4]], codes: &[C::Code]) {
         let q = C::decode(code);
         assert_eq!(bytes_of(&[x[i], y[i], z[i], w[i]]), bytes_of(&q), "{} {code:x?}", C::NAME);
         assert_eq!(bytes_of(&aos[i]), bytes_of(&q), "{} {code:x?}", C::NAME);
+    }
+}
+
+/// Four integers over their length.
+fn plain(code: u64, bits: u32) -> Quaternion {
+    let m = (1i64 << (bits - 1)) - 1;
+    let fields = [0, 1, 2, 3].map(|i| {
+        let field = (code >> (i * bits)) as i64 & (2 * m + 1);
+        (if field > m { field - 2 * m - 2 } else { field }).max(-m) as f64
+    });
+    if fields == [0.0; 4] { [0.0, 0.0, 0.0, 1.0] } else { unit(fields) }
+}
+
+fn check_format(format: QuaternionFormat, given: &[[u8; 16]], meaning: &dyn Fn(u64) -> Quaternion) {
+    let size = format.code_size();
+    // Searching lengths takes a while.
+    for given in given.iter().take(if format.bits() > 40 { 1 } else { 4 }) {
+        let q: [f32; 4] = pod_read_unaligned(given);
+        let of = target(q);
+        let [fast, precise] = [format.encode(q), format.encode_precise(q)];
+        let [off, least] = [fast, precise].map(|code| chord(of, meaning(code)));
+        let limit = |degrees: f64| 2.0 * (degrees.min(360.0).to_radians() / 4.0).sin();
+        assert!(off <= limit(format.max_error_degrees()) + ROUNDING, "{format:?} {q:?}: {off}");
+        assert!(least <= limit(format.max_error_precise_degrees()) + ROUNDING, "{format:?} {q:?}");
+        assert!(least <= off + ROUNDING, "{format:?} {q:?}: fast {off}, precise {least}");
+        assert_eq!(format.encode_precise(format.decode(precise)), precise, "{format:?} {q:?}");
+        assert_eq!(format.canonical(precise), precise, "{format:?} {q:?}");
+
+        let code: u64 = pod_read_unaligned(&given[..8]);
+        let decoded = format.decode(code);
+        let wide = decoded.map(f64::from);
+        assert!(chord(wide, meaning(code)) < ROUNDING, "{format:?} {code:x}: {decoded:?}");
+        assert!((length(wide) - 1.0).abs() <= 2.5e-7, "{format:?} {code:x}: {decoded:?}");
+        let canonical = format.canonical(code);
+        assert_eq!(format.encode_precise(decoded), canonical, "{format:?} {code:x}");
+        let near = format.decode_near(code, q);
+        assert!(near == decoded || near == decoded.map(|c| -c), "{format:?} {code:x}");
+
+        // More than a block of lanes.
+        let mut bytes = vec![0; 19 * size];
+        let to = StridedMut { bytes: &mut bytes, offset: 0, stride: size, len: 19 };
+        format.encode_strided(Strided::of(&[q; 19], 0), to).unwrap();
+        assert!(bytes.chunks(size).all(|code| code == &fast.to_le_bytes()[..size]), "{q:?}");
+        let mut back = [[0.0f32; 4]; 19];
+        let from = Strided { bytes: &bytes, offset: 0, stride: size, len: 19 };
+        format.decode_strided(from, StridedMut::of(&mut back, 0)).unwrap();
+        assert_eq!(back, [format.decode(fast); 19], "{format:?} {q:?}");
     }
 }

@@ -3,6 +3,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
+use unitpack::AxisOrder;
 use unitpack_fuzz::{Bytes, Subject, choose_elements, lie_in};
 use unitpack_test::vectors::bits;
 use unitpack_test::{Effort, Elements};
@@ -62,6 +63,44 @@ fuzz_target!(|data: &[u8]| {
         }
     }
     assert_eq!(to, wanted, "{format}: {codes:?} {vectors:?}");
+
+    // A code for no vector, if there is one.
+    if let Some(or_none) = format.or_none() {
+        let none = format.none().expect("it has one");
+        let order = AxisOrder::Xyz;
+        let mut to = from.iter().map(|byte| !byte).collect::<Vec<u8>>();
+        let mut wanted = to.clone();
+        let result = match effort {
+            Effort::Fast => order.encode_strided(or_none, vectors.read(from), codes.write(&mut to)),
+            Effort::Precise => {
+                order.encode_strided_precise(or_none, vectors.read(from), codes.write(&mut to))
+            }
+        };
+        assert_eq!(result.is_ok(), fits, "{format}: {vectors:?} {codes:?} {result:?}");
+        let mut decoded = to.clone();
+        if fits {
+            for i in 0..codes.len {
+                let v = vector(&from[vectors.element(i, 12)]);
+                let missing = v.iter().all(|&c| c == 0.0) || v.iter().any(|c| c.is_nan());
+                let code = code_of(v);
+                let code = if missing { none } else { &code[..size] };
+                assert!(missing || code != none, "{format} {v:?}");
+                wanted[codes.element(i, size)].copy_from_slice(code);
+            }
+        }
+        assert_eq!(to, wanted, "{format}: {vectors:?} {codes:?}");
+        let result = order.decode_strided(or_none, codes.read(from), vectors.write(&mut decoded));
+        assert_eq!(result.is_ok(), fits, "{format}: {codes:?} {vectors:?} {result:?}");
+        if fits {
+            for i in 0..codes.len {
+                let code = &from[codes.element(i, size)];
+                let v = if code == none { [0; 3] } else { decode(code) };
+                wanted[vectors.element(i, 12)]
+                    .copy_from_slice(v.map(u32::to_ne_bytes).as_flattened());
+            }
+        }
+        assert_eq!(decoded, wanted, "{format}: {codes:?} {vectors:?}");
+    }
 
     // In place.
     let first = vectors.offset.min(code_offset);
