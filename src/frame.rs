@@ -430,6 +430,70 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         Self::decode_pairs(codes, normals.pair(tangent_offset)?);
         Ok(())
     }
+
+    /// [`encode_strided`](FrameCodec::encode_strided) in place, for vertices that hold all: normals as `normals` has them,
+    /// tangents from `tangent_offset` on, and codes to `code_offset`, in the same bytes. They may overlap: an
+    /// element is read before it is written. Gives the input's greatest skew.
+    ///
+    /// ```
+    /// use unitpack::StridedMut;
+    /// use unitpack::frame::{FrameCodec, OctAngle32};
+    /// // Position, normal and tangent. The code takes the place of the normal's x.
+    /// let mut vertices = [[9.0f32, 9.0, 9.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]; 5];
+    /// OctAngle32::encode_within(StridedMut::of(&mut vertices, 12), 24, 12)?;
+    /// assert_eq!(vertices[4][3].to_bits(), 0);
+    /// OctAngle32::decode_within(StridedMut::of(&mut vertices, 12), 24, 12)?;
+    /// assert_eq!(vertices[4], [9.0, 9.0, 9.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0]);
+    /// # Ok::<(), unitpack::StrideMismatch>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or normal, tangent and code together are longer than
+    /// the stride; nothing is written then.
+    #[inline]
+    fn encode_within(
+        normals: StridedMut<'_>,
+        tangent_offset: usize,
+        code_offset: usize,
+    ) -> Result<Skew, StrideMismatch> {
+        let at = [normals.offset, tangent_offset, code_offset];
+        let within = normals.frame_within(at, CodeLayout::native::<Self::Code>())?;
+        Ok(kernels::encode_within(within, &Self::encode_batch))
+    }
+
+    /// [`encode_precise`](FrameCodec::encode_precise) in place, as [`encode_within`](FrameCodec::encode_within) has it.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or normal, tangent and code together are longer than
+    /// the stride; nothing is written then.
+    #[inline]
+    fn encode_within_precise(
+        normals: StridedMut<'_>,
+        tangent_offset: usize,
+        code_offset: usize,
+    ) -> Result<Skew, StrideMismatch> {
+        let at = [normals.offset, tangent_offset, code_offset];
+        let within = normals.frame_within(at, CodeLayout::native::<Self::Code>())?;
+        Ok(kernels::encode_within(within, &Self::encode_batch_precise))
+    }
+
+    /// [`decode_strided`](FrameCodec::decode_strided) in place: from the codes at `code_offset` to normals and tangents, as
+    /// [`encode_within`](FrameCodec::encode_within) has them.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or normal, tangent and code together are longer than
+    /// the stride; nothing is written then.
+    #[inline]
+    fn decode_within(
+        normals: StridedMut<'_>,
+        tangent_offset: usize,
+        code_offset: usize,
+    ) -> Result<(), StrideMismatch> {
+        let at = [normals.offset, tangent_offset, code_offset];
+        let within = normals.frame_within(at, CodeLayout::native::<Self::Code>())?;
+        kernels::decode_within(within, &Self::decode_pairs);
+        Ok(())
+    }
 }
 
 /// Defines the types and their `FrameCodec`.

@@ -47,7 +47,7 @@
 
 use bytemuck::Pod;
 
-use crate::batch::layout::{CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
+use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{from_native, to_native};
 use crate::error::{LengthMismatch, StrideMismatch};
 use crate::formula::support::sanitize::sanitize4;
@@ -325,6 +325,60 @@ pub trait QuaternionCodec: RotationKernels + Copy + 'static {
     fn decode_strided(codes: Strided<'_>, q: StridedMut<'_>) -> Result<(), StrideMismatch> {
         let (codes, q) = codes.decoded(q, CodeLayout::native::<Self::Code>())?;
         Self::decode_batch(codes, q);
+        Ok(())
+    }
+
+    /// [`encode_strided`](QuaternionCodec::encode_strided) in place: the code of the quaternion at `q.offset` goes to
+    /// `code_offset` in the same bytes, the others each a stride further on. Both may overlap: an element is read before
+    /// it is written.
+    ///
+    /// ```
+    /// use unitpack::StridedMut;
+    /// use unitpack::quaternion::{QuaternionCodec, SmallestThree64};
+    /// let mut joints = [[0.0f32, 0.0, 0.0, 1.0]; 5];
+    /// SmallestThree64::encode_within(StridedMut::of(&mut joints, 0), 8)?;
+    /// SmallestThree64::decode_within(StridedMut::of(&mut joints, 8), 0)?;
+    /// assert_eq!(joints[4], [0.0, 0.0, 0.0, 1.0]);
+    /// # Ok::<(), unitpack::StrideMismatch>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or quaternion and code together are longer than the
+    /// stride; nothing is written then.
+    #[inline]
+    fn encode_within(q: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
+        let within = q.vectors_within::<4>(code_offset, CodeLayout::native::<Self::Code>())?;
+        layout::encode_within(within, &Self::encode_batch);
+        Ok(())
+    }
+
+    /// [`encode_precise`](QuaternionCodec::encode_precise) in place, as [`encode_within`](QuaternionCodec::encode_within)
+    /// has it.
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or quaternion and code together are longer than the
+    /// stride; nothing is written then.
+    #[inline]
+    fn encode_within_precise(q: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
+        let within = q.vectors_within::<4>(code_offset, CodeLayout::native::<Self::Code>())?;
+        layout::encode_within(within, &Self::encode_batch_precise);
+        Ok(())
+    }
+
+    /// [`decode_strided`](QuaternionCodec::decode_strided) in place: the quaternion of the code at `codes.offset` goes to
+    /// `quaternion_offset` in the same bytes. Both may overlap, as in [`encode_within`](QuaternionCodec::encode_within).
+    ///
+    /// # Errors
+    /// [`StrideMismatch`] if the elements do not fit their bytes, or quaternion and code together are longer than the
+    /// stride; nothing is written then.
+    #[inline]
+    fn decode_within(
+        codes: StridedMut<'_>,
+        quaternion_offset: usize,
+    ) -> Result<(), StrideMismatch> {
+        let within =
+            codes.codes_within::<4>(quaternion_offset, CodeLayout::native::<Self::Code>())?;
+        layout::decode_within(within, &Self::decode_batch);
         Ok(())
     }
 }

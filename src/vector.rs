@@ -183,38 +183,53 @@ impl<'a> StridedMut<'a> {
         Ok(CodesMut::strided(self.elements(layout.size)?, layout, stride))
     }
 
-    /// Elements with a vector of three floats at `offset`, and its code at `code`.
+    /// Elements with a vector of `K` floats at `offset`, and its code at `code`.
     #[inline]
-    pub(crate) fn vectors_within(
+    pub(crate) fn vectors_within<const K: usize>(
         self,
         code: usize,
         layout: CodeLayout,
     ) -> Result<Within<'a>, StrideMismatch> {
         let vector = self.offset;
-        self.within(vector, code, layout)
+        self.within(vector, 4 * K, code, layout)
     }
 
-    /// Elements with a code at `offset`, and its vector of three floats at `vector`.
+    /// Elements with a code at `offset`, and its vector of `K` floats at `vector`.
     #[inline]
-    pub(crate) fn codes_within(
+    pub(crate) fn codes_within<const K: usize>(
         self,
         vector: usize,
         layout: CodeLayout,
     ) -> Result<Within<'a>, StrideMismatch> {
         let code = self.offset;
-        self.within(vector, code, layout)
+        self.within(vector, 4 * K, code, layout)
     }
 
     #[inline]
     fn within(
         self,
         vector: usize,
+        size: usize,
         code: usize,
         layout: CodeLayout,
     ) -> Result<Within<'a>, StrideMismatch> {
         let stride = self.stride;
-        let (bytes, [vector, code]) = self.fields([vector, 12], [code, layout.size])?;
-        Ok(Within { bytes, stride, vector, code, layout })
+        let (bytes, [vector, code]) = self.fields([vector, size], [code, layout.size])?;
+        Ok(Within { bytes, stride, vectors: [vector], code, layout })
+    }
+
+    /// Elements with a normal of three floats at `normal`, a tangent of four at `tangent`, and their code at `code`.
+    /// For the error, normal and tangent are one field.
+    pub(crate) fn frame_within(
+        self,
+        [normal, tangent, code]: [usize; 3],
+        layout: CodeLayout,
+    ) -> Result<Within<'a, 2>, StrideMismatch> {
+        let (stride, start) = (self.stride, normal.min(tangent));
+        let end = normal.saturating_add(12).max(tangent.saturating_add(16));
+        let (bytes, [vectors, code]) = self.fields([start, end - start], [code, layout.size])?;
+        let vectors = [normal, tangent].map(|at| vectors + (at - start));
+        Ok(Within { bytes, stride, vectors, code, layout })
     }
 
     /// Elements with normals of three floats at `offset`, and tangents of four at `tangent`.

@@ -151,7 +151,7 @@ impl<'a> CodesMut<'a> {
         CodesMut { bytes, layout, stride }
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         count(self.bytes.len(), self.layout.size, self.stride)
     }
 

@@ -307,35 +307,60 @@ fn decode_rows<C, R: AsMut<[u8]>>(
     }
 }
 
-/// Elements that hold a vector and its code, which may overlap. Both lie within `stride` bytes, so that no element reaches
-/// into another.
-pub(crate) struct Within<'a> {
+/// Elements that hold `F` vectors and their code, which may overlap. All lie within `stride` bytes, so that no element
+/// reaches into another.
+pub(crate) struct Within<'a, const F: usize = 1> {
     /// From the first byte of the first element to the last byte of the last.
     pub(crate) bytes: &'a mut [u8],
     pub(crate) stride: usize,
-    /// Where in an element the vector begins.
-    pub(crate) vector: usize,
+    /// Where in an element each vector begins.
+    pub(crate) vectors: [usize; F],
     /// Where in an element the code begins.
     pub(crate) code: usize,
     pub(crate) layout: CodeLayout,
 }
 
-/// Encodes vectors to where they lie. All of a part are read before any is written.
-#[inline(never)]
+/// Encodes vectors to where they lie.
+#[inline]
 pub(crate) fn encode_within<const K: usize>(
     within: Within<'_>,
     encode: &dyn Fn(Vectors<'_, K>, CodesMut<'_>),
 ) {
-    let Within { bytes, stride, vector, code, layout } = within;
+    let stride = within.stride;
+    encode_fields_within(within, &mut |[bytes], codes| {
+        encode(Vectors::Rows { bytes, stride }, codes);
+    });
+}
+
+/// Decodes codes to where they lie.
+#[inline]
+pub(crate) fn decode_within<const K: usize>(
+    within: Within<'_>,
+    decode: &dyn Fn(Codes<'_>, VectorsMut<'_, K>),
+) {
+    let (stride, [vector]) = (within.stride, within.vectors);
+    decode_fields_within(within, &mut |codes, part| {
+        if let Some(bytes) = part.get_mut(vector..) {
+            decode(codes, VectorsMut::Rows { bytes, stride });
+        }
+    });
+}
+
+/// Encodes elements to where they lie, from rows that begin at each of the fields. All of a part are read before
+/// any is written.
+#[inline(never)]
+pub(crate) fn encode_fields_within<const F: usize>(
+    within: Within<'_, F>,
+    encode: &mut dyn FnMut([&[u8]; F], CodesMut<'_>),
+) {
+    let Within { bytes, stride, vectors, code, layout } = within;
     let size = layout.size;
     let mut room = [[0; MAX_CODE]; PART];
     for part in bytes.chunks_mut(PART.saturating_mul(stride).max(1)) {
         let len = part.len().div_ceil(stride.max(1));
-        if let Some(codes) = room.as_flattened_mut().get_mut(..len * size)
-            && let Some(vectors) = part.get(vector..)
-        {
-            let to = CodesMut::dense(codes, layout);
-            encode(Vectors::Rows { bytes: vectors, stride }, to);
+        if let Some(codes) = room.as_flattened_mut().get_mut(..len * size) {
+            let rows = vectors.map(|vector| part.get(vector..).unwrap_or_default());
+            encode(rows, CodesMut::dense(codes, layout));
             if let Some(to) = part.get_mut(code..) {
                 scatter_codes(codes, to, size, stride);
             }
@@ -343,13 +368,13 @@ pub(crate) fn encode_within<const K: usize>(
     }
 }
 
-/// Decodes codes to where they lie. All of a part are read before any is written.
+/// Decodes the codes of elements to where they lie. All of a part are read before any is written.
 #[inline(never)]
-pub(crate) fn decode_within<const K: usize>(
-    within: Within<'_>,
-    decode: &dyn Fn(Codes<'_>, VectorsMut<'_, K>),
+pub(crate) fn decode_fields_within<const F: usize>(
+    within: Within<'_, F>,
+    decode: &mut dyn FnMut(Codes<'_>, &mut [u8]),
 ) {
-    let Within { bytes, stride, vector, code, layout } = within;
+    let Within { bytes, stride, code, layout, .. } = within;
     let size = layout.size;
     let mut room = [[0; MAX_CODE]; PART];
     for part in bytes.chunks_mut(PART.saturating_mul(stride).max(1)) {
@@ -358,10 +383,7 @@ pub(crate) fn decode_within<const K: usize>(
             && let Some(from) = part.get(code..)
         {
             gather_codes(from, size, stride, codes);
-            if let Some(to) = part.get_mut(vector..) {
-                let codes = Codes::dense(codes, layout);
-                decode(codes, VectorsMut::Rows { bytes: to, stride });
-            }
+            decode(Codes::dense(codes, layout), part);
         }
     }
 }

@@ -140,7 +140,7 @@ impl AxisOrder {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let within = v.vectors_within(code_offset, codec.code_layout())?;
+        let within = v.vectors_within::<3>(code_offset, codec.code_layout())?;
         layout::encode_within(within, &|v, codes| self.encode(codec, v, codes));
         Ok(())
     }
@@ -158,7 +158,7 @@ impl AxisOrder {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let within = v.vectors_within(code_offset, codec.code_layout())?;
+        let within = v.vectors_within::<3>(code_offset, codec.code_layout())?;
         layout::encode_within(within, &|v, codes| self.encode_precise(codec, v, codes));
         Ok(())
     }
@@ -175,7 +175,7 @@ impl AxisOrder {
         codes: StridedMut<'_>,
         vector_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let within = codes.codes_within(vector_offset, codec.code_layout())?;
+        let within = codes.codes_within::<3>(vector_offset, codec.code_layout())?;
         layout::decode_within(within, &|codes, v| self.decode(codec, codes, v));
         Ok(())
     }

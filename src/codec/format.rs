@@ -160,7 +160,7 @@ impl Format {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let within = v.vectors_within(code_offset, self.layout())?;
+        let within = v.vectors_within::<3>(code_offset, self.layout())?;
         layout::encode_within(within, &|v, codes| self.encode_batch(v, codes));
         Ok(())
     }
@@ -175,7 +175,7 @@ impl Format {
         v: StridedMut<'_>,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let within = v.vectors_within(code_offset, self.layout())?;
+        let within = v.vectors_within::<3>(code_offset, self.layout())?;
         layout::encode_within(within, &|v, codes| self.encode_batch_precise(v, codes));
         Ok(())
     }
@@ -190,7 +190,7 @@ impl Format {
         codes: StridedMut<'_>,
         vector_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let within = codes.codes_within(vector_offset, self.layout())?;
+        let within = codes.codes_within::<3>(vector_offset, self.layout())?;
         layout::decode_within(within, &|codes, v| self.decode_batch(codes, v));
         Ok(())
     }

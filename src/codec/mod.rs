@@ -286,7 +286,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// nothing is written then.
     #[inline]
     fn encode_within(v: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
-        let within = v.vectors_within(code_offset, CodeLayout::native::<Self::Code>())?;
+        let within = v.vectors_within::<3>(code_offset, CodeLayout::native::<Self::Code>())?;
         layout::encode_within(within, &Self::encode_batch);
         Ok(())
     }
@@ -298,7 +298,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// nothing is written then.
     #[inline]
     fn encode_within_precise(v: StridedMut<'_>, code_offset: usize) -> Result<(), StrideMismatch> {
-        let within = v.vectors_within(code_offset, CodeLayout::native::<Self::Code>())?;
+        let within = v.vectors_within::<3>(code_offset, CodeLayout::native::<Self::Code>())?;
         layout::encode_within(within, &Self::encode_batch_precise);
         Ok(())
     }
@@ -311,7 +311,7 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// nothing is written then.
     #[inline]
     fn decode_within(codes: StridedMut<'_>, vector_offset: usize) -> Result<(), StrideMismatch> {
-        let within = codes.codes_within(vector_offset, CodeLayout::native::<Self::Code>())?;
+        let within = codes.codes_within::<3>(vector_offset, CodeLayout::native::<Self::Code>())?;
         layout::decode_within(within, &Self::decode_batch);
         Ok(())
     }

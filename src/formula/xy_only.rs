@@ -179,6 +179,7 @@ impl XySnorm {
     }
 
     /// In offset binary: two's complement with its sign bits inverted.
+    #[inline]
     const fn biased(bits: u32) -> Self {
         // In 24 bits, pairs of snorm are biased by m already.
         assert!(bits != 24);

@@ -1,7 +1,7 @@
 //! The kernels of frame codecs, in any layout.
 
 use crate::batch::columns::{CodeColumn, Columns, Output};
-use crate::batch::layout::{self, Codes, CodesMut, PairMut, Vectors, VectorsMut, Write};
+use crate::batch::layout::{self, Codes, CodesMut, PairMut, Vectors, VectorsMut, Within, Write};
 use crate::batch::storage::{CodeSlice, ShapeIn};
 use crate::batch::{Kernel, map, run};
 use crate::simd::stream::Fence;
@@ -122,5 +122,35 @@ pub(super) fn decode<'a, F: FrameFormula, C: FrameCodes, W: Write<'a, Kind = Fra
 ) {
     layout::decode(codes, frames, &mut |codes, frames, fence| {
         decode_columns::<F, C>(formula, codes, frames, fence);
+    });
+}
+
+/// Encodes frames to where they lie. Returns the greatest skew.
+#[inline(never)]
+pub(super) fn encode_within(
+    within: Within<'_, 2>,
+    encode: &dyn Fn((Vectors<'_, 3>, Vectors<'_, 4>), CodesMut<'_>) -> Skew,
+) -> Skew {
+    let stride = within.stride;
+    let mut worst = Skew { degrees: 0.0, index: 0 };
+    let mut count = 0;
+    layout::encode_fields_within(within, &mut |[normals, tangents], codes| {
+        let len = codes.len();
+        let normals = Vectors::Rows { bytes: normals, stride };
+        let skew = encode((normals, Vectors::Rows { bytes: tangents, stride }), codes);
+        if skew.degrees > worst.degrees {
+            worst = Skew { index: count + skew.index, ..skew };
+        }
+        count += len;
+    });
+    worst
+}
+
+/// Decodes frames to where they lie.
+#[inline(never)]
+pub(super) fn decode_within(within: Within<'_, 2>, decode: &dyn Fn(Codes<'_>, PairMut<'_>)) {
+    let (stride, at) = (within.stride, within.vectors);
+    layout::decode_fields_within(within, &mut |codes, bytes| {
+        decode(codes, PairMut { bytes, stride, at });
     });
 }

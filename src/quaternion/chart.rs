@@ -150,15 +150,15 @@ pub(super) struct TwoWords {
 pub(super) struct ThreeWords;
 
 impl OneWord {
+    /// Fields of at most 10 bits.
     pub(super) const fn new(bits: u32) -> Self {
-        assert!(bits <= 10);
         OneWord { bits }
     }
 }
 
 impl TwoWords {
+    /// Fields of at most 20 bits, and the index from bit `index` on, above them.
     pub(super) const fn new(bits: u32, index: u32) -> Self {
-        assert!(bits <= 20 && 3 * bits <= index && index <= 62);
         TwoWords { bits, index }
     }
 }

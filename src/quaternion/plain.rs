@@ -34,7 +34,6 @@ pub(super) struct Plain<W> {
 impl Plain<Word> {
     /// Of 4 to 8 bits each.
     pub(super) const fn in_one_word(bits: u32) -> Self {
-        assert!(4 <= bits && bits <= 8);
         Plain { bits, words: PhantomData }
     }
 }
@@ -42,7 +41,6 @@ impl Plain<Word> {
 impl Plain<Words2> {
     /// Of 9 to 16 bits each.
     pub(super) const fn in_two_words(bits: u32) -> Self {
-        assert!(9 <= bits && bits <= 16);
         Plain { bits, words: PhantomData }
     }
 }

@@ -88,9 +88,8 @@ struct Scale {
 }
 
 impl Scale {
+    /// Of 4 to 20 bits. With fewer, rounding could make the three longer than a unit quaternion.
     const fn new(bits: u32) -> Self {
-        // With fewer, rounding could make the three longer than a unit quaternion.
-        assert!(bits >= 4);
         let max = snorm_max(bits);
         let square = 2 * max as i64 * max as i64;
         Scale {

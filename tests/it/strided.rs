@@ -231,6 +231,150 @@ fn formats_work_in_place_too() {
     }
 }
 
+#[test]
+fn rotations_work_in_place_too() {
+    fn check<C: QuaternionCodec>() {
+        let size = size_of::<C::Code>();
+        let mut rng = Rng::new(12);
+        for (q_at, code_at, gap) in [(0, 0, 0), (0, 16, 0), (size, 0, 3), (5, 9, 1), (4, 2, 0)] {
+            let span = (q_at + 16).max(code_at + size) - q_at.min(code_at);
+            let stride = span + gap;
+            for len in LENGTHS {
+                let q: Vec<[f32; 4]> =
+                    (0..len).map(|_| [(); 4].map(|()| rng.bits() as i32 as f32)).collect();
+                let [q_place, code_place] =
+                    [q_at, code_at].map(|offset| Place { offset, stride, len });
+                for precise in [false, true] {
+                    let mut bytes = vec![FILL; q_at.min(code_at) + len * stride];
+                    for (i, q) in q.iter().enumerate() {
+                        bytes[q_place.element(i, 16)].copy_from_slice(bytemuck::bytes_of(q));
+                    }
+                    let single = if precise { C::encode_precise } else { C::encode };
+                    let codes: Vec<C::Code> = q.iter().map(|&q| single(q)).collect();
+                    let mut wanted = bytes.clone();
+                    for (i, code) in codes.iter().enumerate() {
+                        let code = bytemuck::bytes_of(code);
+                        wanted[code_place.element(i, size)].copy_from_slice(code);
+                    }
+                    let encode = if precise { C::encode_within_precise } else { C::encode_within };
+                    encode(q_place.write(&mut bytes), code_at).unwrap();
+                    assert_eq!(bytes, wanted, "{} {q_at} {code_at} {len}", C::NAME);
+                    for (i, &code) in codes.iter().enumerate() {
+                        let q = C::decode(code);
+                        wanted[q_place.element(i, 16)].copy_from_slice(bytemuck::bytes_of(&q));
+                    }
+                    C::decode_within(code_place.write(&mut bytes), q_at).unwrap();
+                    assert_eq!(bytes, wanted, "{} {q_at} {code_at} {len} back", C::NAME);
+                }
+            }
+        }
+    }
+    check::<SmallestThree32>();
+    check::<SmallestThree48>();
+    check::<SmallestThree64>();
+    let mut bytes = [FILL; 40];
+    let q = StridedMut { bytes: &mut bytes, offset: 0, stride: 19, len: 2 };
+    let error = StrideMismatch::Fields {
+        first: 0,
+        first_size: 16,
+        second: 16,
+        second_size: 4,
+        stride: 19,
+        len: 2,
+        bytes: 40,
+    };
+    assert_eq!(SmallestThree32::encode_within(q, 16), Err(error));
+    assert_eq!(bytes, [FILL; 40]);
+}
+
+#[test]
+fn frames_work_in_place_too() {
+    fn check<C: FrameCodec>() {
+        let size = size_of::<C::Code>();
+        let mut rng = Rng::new(13);
+        // Beside each other, in another order, over each other.
+        for (at, span) in [([0, 12, 28], 36), ([24, 8, 0], 36), ([2, 14, 2], 28), ([0, 4, 9], 20)] {
+            for len in LENGTHS {
+                let stride = span + rng.below(3) as usize;
+                let frames: Vec<Frame> = (0..len)
+                    .map(|_| {
+                        let mut vector = || [(); 3].map(|()| rng.unit() as f32 - 0.5);
+                        let (normal, tangent) = (vector(), vector());
+                        Frame { normal, tangent, handedness: vector()[0].signum() }
+                    })
+                    .collect();
+                let [normal, tangent, code] = at.map(|offset| Place { offset, stride, len });
+                let put = |bytes: &mut [u8], i, frame: &Frame| {
+                    let [x, y, z] = frame.tangent;
+                    bytes[normal.element(i, 12)].copy_from_slice(bytemuck::bytes_of(&frame.normal));
+                    let tangent_bytes = [x, y, z, frame.handedness];
+                    bytes[tangent.element(i, 16)]
+                        .copy_from_slice(bytemuck::bytes_of(&tangent_bytes));
+                };
+                let mut bytes = vec![FILL; 2 + len * stride];
+                frames.iter().enumerate().for_each(|(i, frame)| put(&mut bytes, i, frame));
+                // What lies over another is what counts, so read it back.
+                let floats = |bytes: &[u8]| -> Vec<f32> {
+                    bytes.chunks(4).map(|c| f32::from_ne_bytes(c.try_into().unwrap())).collect()
+                };
+                let read: Vec<Frame> = (0..len)
+                    .map(|i| {
+                        let n = floats(&bytes[normal.element(i, 12)]);
+                        let t = floats(&bytes[tangent.element(i, 16)]);
+                        let normal = [n[0], n[1], n[2]];
+                        Frame { normal, tangent: [t[0], t[1], t[2]], handedness: t[3] }
+                    })
+                    .collect();
+                let normals: Vec<[f32; 3]> = read.iter().map(|f| f.normal).collect();
+                let tangents: Vec<[f32; 4]> = read
+                    .iter()
+                    .map(|f| [f.tangent[0], f.tangent[1], f.tangent[2], f.handedness])
+                    .collect();
+                let mut codes = vec![C::Code::zeroed(); len];
+                for precise in [false, true] {
+                    let (all, within): (fn(_, _, _) -> _, fn(_, _, _) -> _) = if precise {
+                        (C::encode_aos_precise::<3>, C::encode_within_precise)
+                    } else {
+                        (C::encode_aos::<3>, C::encode_within)
+                    };
+                    let skew = all(&normals[..], &tangents[..], &mut codes[..]).unwrap();
+                    let mut got = bytes.clone();
+                    let mut wanted = bytes.clone();
+                    for (i, c) in codes.iter().enumerate() {
+                        wanted[code.element(i, size)].copy_from_slice(bytemuck::bytes_of(c));
+                    }
+                    assert_eq!(within(normal.write(&mut got), at[1], at[2]), Ok(skew));
+                    assert_eq!(got, wanted, "{} {at:?} {len}", C::NAME);
+                    for (i, &c) in codes.iter().enumerate() {
+                        put(&mut wanted, i, &C::decode(c));
+                    }
+                    C::decode_within(normal.write(&mut got), at[1], at[2]).unwrap();
+                    assert_eq!(got, wanted, "{} {at:?} {len} back", C::NAME);
+                }
+            }
+        }
+    }
+    check::<OctAngle32>();
+    check::<OctAngle64>();
+    check::<QTangent64>();
+    let mut bytes = [FILL; 64];
+    let normals = StridedMut { bytes: &mut bytes, offset: 0, stride: 31, len: 2 };
+    // Normal and tangent are one field of 28 bytes.
+    let error = StrideMismatch::Fields {
+        first: 0,
+        first_size: 28,
+        second: 28,
+        second_size: 4,
+        stride: 31,
+        len: 2,
+        bytes: 64,
+    };
+    assert_eq!(OctAngle32::encode_within(normals, 12, 28), Err(error));
+    let normals = StridedMut { bytes: &mut bytes, offset: 0, stride: 32, len: 2 };
+    assert!(OctAngle32::decode_within(normals, usize::MAX - 3, 28).is_err());
+    assert_eq!(bytes, [FILL; 64]);
+}
+
 /// The name says which components are the codec's.
 #[test]
 fn axes_have_any_order() {

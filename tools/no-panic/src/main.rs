@@ -560,6 +560,9 @@ fn quaternions<C: QuaternionCodec>() {
     black_box(<C as QuaternionCodec>::encode_strided(strided(a), strided_mut(b)).is_ok());
     black_box(<C as QuaternionCodec>::encode_strided_precise(strided(a), strided_mut(b)).is_ok());
     black_box(<C as QuaternionCodec>::decode_strided(strided(a), strided_mut(b)).is_ok());
+    black_box(<C as QuaternionCodec>::encode_within(strided_mut(b), black_box(3)).is_ok());
+    black_box(<C as QuaternionCodec>::encode_within_precise(strided_mut(b), black_box(3)).is_ok());
+    black_box(<C as QuaternionCodec>::decode_within(strided_mut(b), black_box(3)).is_ok());
 }
 
 fn all_quaternions() {
@@ -689,6 +692,10 @@ fn frames<C: FrameCodec>() {
     black_box(skew.is_ok());
     let (v, tangent) = (strided_mut(b), black_box(20));
     black_box(<C as FrameCodec>::decode_vertices(strided(a), v, tangent).is_ok());
+    let at = black_box([3, 9]);
+    black_box(<C as FrameCodec>::encode_within(strided_mut(b), at[0], at[1]).is_ok());
+    black_box(<C as FrameCodec>::encode_within_precise(strided_mut(b), at[0], at[1]).is_ok());
+    black_box(<C as FrameCodec>::decode_within(strided_mut(b), at[0], at[1]).is_ok());
     black_box(
         <C as FrameCodec>::decode_strided(strided(a), strided_mut(b), strided_mut(c)).is_ok(),
     );
