@@ -18,7 +18,8 @@ fn formats() -> Vec<QuaternionFormat> {
 }
 
 fn is_three(format: QuaternionFormat) -> bool {
-    format.bits() % 4 != 0 || (0..32).any(|b| QuaternionFormat::smallest_three(b) == Some(format))
+    !format.bits().is_multiple_of(4)
+        || (0..32).any(|b| QuaternionFormat::smallest_three(b) == Some(format))
 }
 
 /// Bits of a component.

@@ -126,8 +126,8 @@ fn a_rotation_near_a_quarter_turn_does_not_alternate() {
     assert_eq!(SmallestThree32::encode(SmallestThree32::decode(code)), code);
     // Noise of 0.2 degrees around it.
     for i in 0..10_000 {
-        let noise = |k: i32| (i * k % 1009) as f32 / 1009.0 * 0.0035 - 0.0017;
-        let q = [noise(17), noise(31), 0.7071 + noise(53), 0.7071 + noise(97)];
+        let noise = |k: i32| (i * k % 1009) as f32 / 1009.0 * 0.005 - 0.0025;
+        let q = [noise(17), noise(31), 1.0 + noise(53), 1.0 + noise(97)];
         let code = SmallestThree32::encode(q);
         assert_eq!(SmallestThree32::encode(SmallestThree32::decode(code)), code, "{q:?}");
     }
