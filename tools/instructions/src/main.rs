@@ -74,7 +74,9 @@ fn frames<C: FrameCodec>(normal: Soa<'_>) {
 }
 
 fn quaternions<C: QuaternionCodec>(Soa { x, y, z }: Soa<'_>) {
-    let q = Soa4 { x, y, z, w: x };
+    // No two equal components, which only some rotations have.
+    let w: Vec<f32> = x.iter().rev().copied().collect();
+    let q = Soa4 { x, y, z, w: &w };
     let mut codes = [C::Code::zeroed(); LEN];
     count(C::NAME, "encode", LEN, &mut || C::encode_soa(q, &mut codes));
     let mut to = [[0.0; LEN]; 4];
