@@ -264,9 +264,9 @@ pub enum StrideMismatch {
     /// the `bytes` that there are.
     #[allow(missing_docs)]
     Bounds { offset: usize, stride: usize, len: usize, size: usize, bytes: usize },
-    /// The stride is less than the size of an element.
+    /// The same numbers, of which the stride is less than the size of an element.
     #[allow(missing_docs)]
-    Stride { stride: usize, size: usize },
+    Stride { offset: usize, stride: usize, len: usize, size: usize, bytes: usize },
     /// The number of vectors, and of codes.
     #[allow(missing_docs)]
     Lengths { vectors: usize, codes: usize },
@@ -308,9 +308,11 @@ impl fmt::Display for StrideMismatch {
                 "{len} elements of {size} bytes from byte {offset} on, {stride} bytes apart, do not \
                  lie in {bytes} bytes"
             ),
-            StrideMismatch::Stride { stride, size } => {
-                write!(f, "a stride of {stride} bytes is less than an element's {size}")
-            }
+            StrideMismatch::Stride { offset, stride, len, size, bytes } => write!(
+                f,
+                "a stride of {stride} bytes is less than an element's {size}, of {len} elements from byte \
+                 {offset} on in {bytes} bytes"
+            ),
             StrideMismatch::Lengths { vectors, codes } => {
                 write!(f, "lengths differ: vectors {vectors}, codes {codes}")
             }

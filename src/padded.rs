@@ -96,11 +96,17 @@
 //! | [`HemiOct32`](crate::HemiOct32) | `Snorm16x2` | `R16G16_SNORM` | `R16G16_SNORM` | `short2Normalized` | `2 SHORT normalized` | `VEC2 SHORT normalized` | u 16, v 16 |
 //! | [`XyOnly16`](crate::XyOnly16) | `Unorm8x2` | `R8G8_UNORM` | `R8G8_UNORM` | `uchar2Normalized` | `2 UNSIGNED_BYTE normalized` | `VEC2 UNSIGNED_BYTE normalized` | x 8, y 8 |
 //! | [`XyOnly32`](crate::XyOnly32) | `Unorm16x2` | `R16G16_UNORM` | `R16G16_UNORM` | `ushort2Normalized` | `2 UNSIGNED_SHORT normalized` | `VEC2 UNSIGNED_SHORT normalized` | x 16, y 16 |
+//! | [`XyOnlySnorm16`](crate::XyOnlySnorm16) | `Snorm8x2` | `R8G8_SNORM` | `R8G8_SNORM` | `char2Normalized` | `2 BYTE normalized` | `VEC2 BYTE normalized` | x 8, y 8 |
+//! | [`XyOnlyNormalized16`](crate::XyOnlyNormalized16) | `Unorm8x2` | `R8G8_UNORM` | `R8G8_UNORM` | `uchar2Normalized` | `2 UNSIGNED_BYTE normalized` | `VEC2 UNSIGNED_BYTE normalized` | x 8, y 8 |
+//! | [`XyOnlyBiased16`](crate::XyOnlyBiased16) | `Unorm8x2` | `R8G8_UNORM` | `R8G8_UNORM` | `uchar2Normalized` | `2 UNSIGNED_BYTE normalized` | `VEC2 UNSIGNED_BYTE normalized` | x 8, y 8 |
+//! | [`PhiZUnorm8x2`](crate::PhiZUnorm8x2) | `Unorm8x2` | `R8G8_UNORM` | `R8G8_UNORM` | `uchar2Normalized` | `2 UNSIGNED_BYTE normalized` | `VEC2 UNSIGNED_BYTE normalized` | phi 8, z 8 |
+//! | [`PhiZUnorm16x2`](crate::PhiZUnorm16x2) | `Unorm16x2` | `R16G16_UNORM` | `R16G16_UNORM` | `ushort2Normalized` | `2 UNSIGNED_SHORT normalized` | `VEC2 UNSIGNED_SHORT normalized` | phi 16, z 16 |
 //! | [`XyOnly32F`](crate::XyOnly32F) | `Float16x2` | `R16G16_SFLOAT` | `R16G16_FLOAT` | `half2` | `2 HALF_FLOAT` | - | x 16, y 16 |
 //! | [`Oct8`](crate::Oct8) | `Uint8` | `R8_UINT` | `R8_UINT` | `uchar` | `1 UNSIGNED_BYTE` | `SCALAR UNSIGNED_BYTE` | u 4, v 4 |
 //! | [`Oct20`](crate::Oct20) | `Uint32` | `R32_UINT` | `R32_UINT` | `uint` | `1 UNSIGNED_INT` | - | u 10, v 10, 0 12 |
 //!
-//! Every other code of one, two or four bytes is a single integer, as in the last two rows: `Uint8`, `Uint16` or `Uint32`.
+//! The other codes of one, two or four bytes are single integers, as in the last two rows: `Uint8`, `Uint16` or `Uint32`.
+//! [`XyOnlyBiased16`](crate::XyOnlyBiased16) has (255 c - 128) / 127 of what is fetched.
 //! GL's integers are those of `glVertexAttribIPointer`.
 
 use core::fmt::Debug;

@@ -16,7 +16,7 @@ use crate::vector::{Soa, SoaMut, Strided, StridedMut};
 ///
 /// Decoding divides by the length. `encode` rounds each component and `encode_precise` gives the nearest direction of any
 /// length. Only that is stable: a buffer that is decoded and encoded again keeps its bytes with `encode_precise`. From 11 bits on it is
-/// slow, 17 µs a vector at 16. Inputs are as those of every [`Codec`](crate::Codec).
+/// slow: at 16, 17 µs a vector of a batch and 32 µs alone. Inputs are as those of every [`Codec`](crate::Codec).
 ///
 /// ```
 /// use unitpack::{Codec, Snorm10x3, SnormFormat};

@@ -273,7 +273,7 @@ fn range(
 ) -> Result<Range<usize>, StrideMismatch> {
     let Some(last) = len.checked_sub(1) else { return Ok(0..0) };
     if stride < size {
-        return Err(StrideMismatch::Stride { stride, size });
+        return Err(StrideMismatch::Stride { offset, stride, len, size, bytes });
     }
     let end = last.checked_mul(stride).and_then(|at| at.checked_add(offset)?.checked_add(size));
     match end {

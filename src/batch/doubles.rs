@@ -88,7 +88,7 @@ fn vector(row: &[u8; 24]) -> [f64; 3] {
 #[derive(Clone, Copy)]
 pub enum Keeps {
     Direction,
-    /// z < 0 is taken as 0, before a length is looked at: beside it, x and y could vanish.
+    /// z < 0 is taken as 0, before a length is looked at: beside it, x and y could vanish. -Z alone is then +Z.
     UpperDirection,
     /// All of it.
     Floats,
@@ -97,7 +97,8 @@ pub enum Keeps {
 impl Keeps {
     #[inline(always)]
     fn of(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        [x, y, if matches!(self, Keeps::UpperDirection) && z < 0.0 { 0.0 } else { z }]
+        let up = if x.abs() + y.abs() > 0.0 { 0.0 } else { 1.0 };
+        [x, y, if matches!(self, Keeps::UpperDirection) && z < 0.0 { up } else { z }]
     }
 }
 

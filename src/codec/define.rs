@@ -271,7 +271,7 @@ macro_rules! define_codecs {
             }
 
             /// The code of two parameters as a little-endian integer: [`TwoParameters::from_parameters`] at run time.
-            /// `None` if codes of this format are not two parameters.
+            /// `None` if codes of this format are not two snorm or two unorm parameters.
             pub fn from_parameters(self, parameters: [i32; 2]) -> Option<u32> {
                 match self {$($(
                     #[cfg(feature = $feature)]
@@ -280,7 +280,7 @@ macro_rules! define_codecs {
             }
 
             /// The parameters of a code given as a little-endian integer: [`TwoParameters::parameters`] at run
-            /// time. `None` if codes of this format are not two parameters.
+            /// time. `None` if codes of this format are not two snorm or two unorm parameters.
             pub fn parameters(self, code: u32) -> Option<[i32; 2]> {
                 match self {$($(
                     #[cfg(feature = $feature)]
@@ -357,10 +357,10 @@ macro_rules! is_stable {
 /// What a page says of encoding again.
 macro_rules! stable_text {
     (stable) => {
-        "Codes that are decoded and encoded again stay."
+        "Codes that an encoder gave stay when they are decoded and encoded again."
     };
     (unstable) => {
-        "Codes that are decoded and encoded again stay with `encode_precise`, but can change with `encode`."
+        "Codes that an encoder gave stay when they are decoded and encoded again with `encode_precise`, but can change with `encode`."
     };
 }
 

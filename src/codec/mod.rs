@@ -61,7 +61,8 @@ pub trait Codec: Copy + 'static + sealed::Batch {
     /// The run-time twin of this type.
     const FORMAT: Format;
     /// A code that no encoder gives, free to say that there is no vector: see [`OrNone`]. `None` if
-    /// encoders give all codes. It decodes to a unit vector, as all codes do.
+    /// encoders give all codes, as those of `LatLong16D`, `LatLong24D`, `Fibonacci16`, `Fibonacci24` and `Float32x3` do. It decodes
+    /// to a unit vector, as all codes do.
     ///
     /// ```
     /// use unitpack::{Codec, Fibonacci16, Oct16};

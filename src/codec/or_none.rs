@@ -3,7 +3,7 @@
 use super::sealed::{Batch, Chosen};
 use super::{Axis, Codec, Format};
 use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
-use crate::batch::storage::{CodeSlice, CodeSliceMut};
+use crate::batch::storage::{CodeSlice, CodeSliceMut, swap_if_big_endian};
 use crate::simd::stream::Fence;
 
 /// The codec `C`, in which its [`NONE`](Codec::NONE) means that there is no vector.
@@ -46,6 +46,16 @@ impl<C: Codec> OrNone<C> {
         OrNone(codec)
     }
 
+    /// Whether the bits that say something are those of `NONE`.
+    #[inline]
+    fn is_none(mut code: C::Code) -> bool {
+        let bytes = bytemuck::bytes_of_mut(&mut code);
+        swap_if_big_endian(bytes, align_of::<C::Code>());
+        let used = used_bits::<8>(C::FORMAT.bits());
+        let bytes = bytes.iter().zip(&used).zip(Self::bytes());
+        bytes.fold(0, |differ, ((code, used), none)| differ | (code & used) ^ none) == 0
+    }
+
     /// Its little-endian bytes.
     #[inline]
     fn bytes() -> &'static [u8] {
@@ -86,19 +96,19 @@ impl<C: Codec> Codec for OrNone<C> {
     }
     #[inline]
     fn decode(code: C::Code) -> [f32; 3] {
-        if code == Self::NONE { [0.0; 3] } else { C::decode(code) }
+        if Self::is_none(code) { [0.0; 3] } else { C::decode(code) }
     }
     #[inline]
     fn canonical(code: C::Code) -> C::Code {
-        if code == Self::NONE { code } else { C::canonical(code) }
+        if Self::is_none(code) { Self::NONE } else { C::canonical(code) }
     }
     #[inline]
     fn negate(code: C::Code) -> C::Code {
-        if code == Self::NONE { code } else { C::negate(code) }
+        if Self::is_none(code) { Self::NONE } else { C::negate(code) }
     }
     #[inline]
     fn mirror(code: C::Code, axis: Axis) -> C::Code {
-        if code == Self::NONE { code } else { C::mirror(code, axis) }
+        if Self::is_none(code) { Self::NONE } else { C::mirror(code, axis) }
     }
 }
 
@@ -116,12 +126,12 @@ impl<C: Codec> Batch for OrNone<C> {
     #[inline]
     fn decode_columns(codes: CodeSlice<'_>, [x, y, z]: [&mut [f32]; 3], fence: &Fence) {
         C::decode_columns(codes, [&mut *x, &mut *y, &mut *z], fence);
-        clear(codes, [x, y, z], Self::bytes());
+        clear(codes, [x, y, z], Self::bytes(), C::FORMAT.bits());
     }
     #[inline]
     fn mirror_codes(from: CodeSlice<'_>, mut to: CodeSliceMut<'_>, flips: [bool; 3]) {
         C::mirror_codes(from, to.reborrow(), flips);
-        keep(from, to, Self::bytes());
+        keep(from, to, Self::bytes(), C::FORMAT.bits());
     }
 
     // Part by part, so that what the second pass looks at is still near.
@@ -157,7 +167,7 @@ impl Chosen for OrNone<Format> {
     }
     fn decode_chosen(self, codes: CodeSlice<'_>, [x, y, z]: [&mut [f32]; 3], fence: &Fence) {
         self.0.decode_chosen(codes, [&mut *x, &mut *y, &mut *z], fence);
-        clear(codes, [x, y, z], self.0.none().unwrap_or_default());
+        clear(codes, [x, y, z], self.0.none().unwrap_or_default(), self.0.bits());
     }
 }
 
@@ -197,19 +207,43 @@ fn write(code: &mut [u8], none: &[u8]) {
     }
 }
 
-/// Calls `found` with the index of each code that is `none`.
+/// The little-endian bytes of a code that say something, of `bits` bits.
 #[inline(always)]
-fn for_each_none(codes: CodeSlice<'_>, none: &[u8], mut found: impl FnMut(usize)) {
+fn used_bits<const N: usize>(bits: u32) -> [u8; N] {
+    let used = u64::MAX >> (64 - bits.clamp(1, 64));
+    let bytes = used.to_le_bytes();
+    [0; N].map({
+        let mut i = 0;
+        move |_: u8| {
+            i += 1;
+            bytes.get(i - 1).copied().unwrap_or(0)
+        }
+    })
+}
+
+/// Calls `found` with the index of each code that is `none`, of `bits` bits.
+#[inline(always)]
+fn for_each_none(codes: CodeSlice<'_>, none: &[u8], bits: u32, mut found: impl FnMut(usize)) {
     /// The same for codes of `N` bytes.
     #[inline(always)]
-    fn of_size<const N: usize>(codes: &[u8], none: &[u8], found: &mut impl FnMut(usize)) {
+    fn of_size<const N: usize>(
+        codes: &[u8],
+        none: &[u8],
+        bits: u32,
+        found: &mut impl FnMut(usize),
+    ) {
         let (Some(none), (codes, _)) = (none.first_chunk::<N>(), codes.as_chunks::<N>()) else {
             return;
         };
+        let used = used_bits::<N>(bits);
+        let is_none = |code: &[u8; N]| {
+            let bytes = code.iter().zip(&used).zip(none);
+            bytes.fold(0, |differ, ((code, used), none)| differ | (code & used) ^ none) == 0
+        };
         for (block, codes) in codes.chunks(BLOCK).enumerate() {
-            if codes.iter().fold(false, |any, code| any | (code == none)) {
+            if codes.iter().fold(false, |any, code| any | is_none(code)) {
                 for (i, code) in codes.iter().enumerate() {
-                    if code == none {
+                    if is_none(code) {
                         found(block * BLOCK + i);
                     }
                 }
@@ -217,19 +251,19 @@ fn for_each_none(codes: CodeSlice<'_>, none: &[u8], mut found: impl FnMut(usize)
         }
     }
     match none.len() {
-        1 => of_size::<1>(codes.bytes, none, &mut found),
-        2 => of_size::<2>(codes.bytes, none, &mut found),
-        3 => of_size::<3>(codes.bytes, none, &mut found),
-        4 => of_size::<4>(codes.bytes, none, &mut found),
-        _ => of_size::<6>(codes.bytes, none, &mut found),
+        1 => of_size::<1>(codes.bytes, none, bits, &mut found),
+        2 => of_size::<2>(codes.bytes, none, bits, &mut found),
+        3 => of_size::<3>(codes.bytes, none, bits, &mut found),
+        4 => of_size::<4>(codes.bytes, none, bits, &mut found),
+        _ => of_size::<6>(codes.bytes, none, bits, &mut found),
     }
 }
 
 /// Writes zero for codes that are `none`.
 #[inline(never)]
-fn clear(codes: CodeSlice<'_>, v: [&mut [f32]; 3], none: &[u8]) {
+fn clear(codes: CodeSlice<'_>, v: [&mut [f32]; 3], none: &[u8], bits: u32) {
     let [x, y, z] = v;
-    for_each_none(codes, none, |i| {
+    for_each_none(codes, none, bits, |i| {
         for column in [&mut *x, &mut *y, &mut *z] {
             if let Some(c) = column.get_mut(i) {
                 *c = 0.0;
@@ -240,9 +274,9 @@ fn clear(codes: CodeSlice<'_>, v: [&mut [f32]; 3], none: &[u8]) {
 
 /// Writes `none` where it was.
 #[inline(never)]
-fn keep(from: CodeSlice<'_>, to: CodeSliceMut<'_>, none: &[u8]) {
+fn keep(from: CodeSlice<'_>, to: CodeSliceMut<'_>, none: &[u8], bits: u32) {
     let to = to.bytes;
-    for_each_none(from, none, |i| {
+    for_each_none(from, none, bits, |i| {
         if let Some(code) = to.chunks_exact_mut(none.len().max(1)).nth(i) {
             write(code, none);
         }

@@ -6,7 +6,7 @@ use super::Codec;
 use crate::formula::support::bits::Pair;
 use crate::simd::I32x1;
 
-/// A codec whose code is two integers and nothing else, such as u and v of an octahedron's square.
+/// A codec whose code is two snorm or two unorm integers and nothing else, such as u and v of an octahedron's square.
 ///
 /// The codec's page says what the two are, and where in the code: see [Bit layout](Codec#bit-layout). Snorm
 /// parameters go from -M to M, with M = 2^(b-1) - 1 for b bits, and unorm ones from 0 to 2^b - 1.
@@ -22,7 +22,7 @@ use crate::simd::I32x1;
 /// assert_eq!(Oct16::parameters(Oct16::from_parameters([1000, -128])), [127, -127]);
 /// ```
 pub trait TwoParameters: Codec {
-    /// The values that a parameter can have.
+    /// The values that a parameter can have. In sixoct the greatest one reads as the one below.
     const RANGE: RangeInclusive<i32>;
 
     /// The code of two parameters, each clamped to [`RANGE`](TwoParameters::RANGE). It need not be canonical.

@@ -8,6 +8,8 @@ pub(super) enum Spare {
     /// All bits are zero but the highest: the last parameter is the snorm that reads as its neighbour, or a bit
     /// is set that has no meaning. In three bytes, where parameters are biased, all bits.
     HighestBit,
+    /// All bits are zero but the second highest: the same, below a sign.
+    BelowHighest,
     /// All bits are one.
     AllBits,
     /// All bits are zero.
@@ -23,6 +25,7 @@ impl Spare {
         let code = match self {
             Spare::HighestBit if size != 3 => all ^ all >> 1,
             Spare::HighestBit | Spare::AllBits => all,
+            Spare::BelowHighest => (all ^ all >> 1) >> 1,
             Spare::Zero => 0,
             Spare::Never => return None,
         };

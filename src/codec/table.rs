@@ -108,7 +108,7 @@ macro_rules! codec_table {
     }
     #[cfg(feature = "hemioct")]
     "Signed oct: two snorm [parameters](Codec#bit-layout) as [`HemiOct16`] has them, and above them a bit that is set where z < 0. For \
-     odd budgets: 10 + 10 + 1 bits leave 11 of a word.", mirrors "X Y Z", stable, none Never, pair none {
+     odd budgets: 10 + 10 + 1 bits leave 11 of a word.", mirrors "X Y Z", stable, none BelowHighest, pair none {
         SignedOct17: u32 = "signedoct17", 17 bits, 0.5554 / 0.5554 degrees, exact "±X ±Y ±Z", SignedOct::new(17);
         SignedOct21: u32 = "signedoct21", 21 bits, 0.1381 / 0.1381 degrees, exact "±X ±Y ±Z", SignedOct::new(21);
         SignedOct23: [u8; 3] = "signedoct23", 23 bits, 0.06895 / 0.06895 degrees, exact "±X ±Y ±Z", SignedOct::new(23);
@@ -134,11 +134,14 @@ macro_rules! codec_table {
         XyOnlyNormalized16: u16 = "XYOnly-normalized16", 16 bits, 5.98 / 3.611 degrees, exact "", XyOnly::<XyUnorm, Normalized>::new(16), octant;
     }
     #[cfg(feature = "xyonly")]
-    "XY-only with a zero, as textures have it: the +Z hemisphere, x and y as two bytes. XYOnly-snorm16 has the two's complement of \
-     BC5_SNORM and RG8_SNORM, where -128 reads as -127. XYOnly-biased16 has (c - 128) / 127 in unsigned bytes: 128 is zero, and 0 \
-     reads as 1. Beyond the rim, a code reads as shaders do it: (x, y, 0) over its length. Of the codes of one direction \
-     the one nearest to the rim is canonical.", mirrors "X Y", unstable, none HighestBit, pair none {
+    "XY-only as BC5_SNORM and RG8_SNORM have it: the +Z hemisphere, x and y as two snorm [parameters](Codec#bit-layout). \
+     Beyond the rim, a code reads as shaders do it: (x, y, 0) over its length. Of the codes of one direction \
+     the one nearest to the rim is canonical.", mirrors "X Y", unstable, none HighestBit, pair snorm {
         XyOnlySnorm16: u16 = "XYOnly-snorm16", 16 bits, 6.02 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::new(16), octant;
+    }
+    #[cfg(feature = "xyonly")]
+    "XY-only with 128 for zero, as painters of normal maps take it: the directions of [`XyOnlySnorm16`], x and y as two unsigned bytes, \
+     (c - 128) / 127, of which 0 reads as 1.", mirrors "X Y", unstable, none HighestBit, pair none {
         XyOnlyBiased16: u16 = "XYOnly-biased16", 16 bits, 6.02 / 3.611 degrees, exact "±X ±Y +Z", XyOnly::<XySnorm, Normalized>::biased(16), octant;
     }
     #[cfg(feature = "disk")]
@@ -231,9 +234,12 @@ macro_rules! codec_table {
     }
     #[cfg(feature = "latlong")]
     "Lat-long with fewer points towards the poles, so that cells are about as wide as high. The code is an index, row by row \
-     from +Z; the last indices read as -Z. A table of 4 bytes a parallel: 1 KB at 16 bits, 15 KB at 24, 232 KB at 32.", mirrors "Y Z", stable, none Never, pair none {
+     from +Z. A table of 4 bytes a parallel: 1 KB at 16 bits, 15 KB at 24.", mirrors "Y Z", stable, none Never, pair none {
         LatLong16D: u16 = "latlong16D", 16 bits, 0.5647 / 0.5645 degrees, exact "±X ±Z", LatLong::<Adaptive>::new(16);
         LatLong24D: [u8; 3] = "latlong24D", 24 bits, 0.03524 / 0.03522 degrees, exact "±X ±Z", LatLong::<Adaptive>::new(24);
+    }
+    #[cfg(feature = "latlong")]
+    "As [`LatLong24D`], in 32 bits. The last indices read as -Z. A table of 4 bytes a parallel, 232 KB.", mirrors "Y Z", stable, none AllBits, pair none {
         LatLong32D: u32 = "latlong32D", 32 bits, 0.002228 / 0.002205 degrees, exact "+X ±Z", LatLong::<Adaptive>::new(32);
     }
     #[cfg(feature = "fibonacci")]

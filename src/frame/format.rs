@@ -1,7 +1,7 @@
 //! An octahedral normal and an angle in any number of bits.
 
 use super::formula::{Decoded, FrameCodes, FrameFormula};
-use super::oct_angle::OctAngle;
+use super::oct_angle::{EMITTED, OctAngle};
 use super::{Frame, FrameSoa, FrameSoaMut, Skew, kernels};
 use crate::batch::layout::{CodeLayout, Codes, CodesMut, PairMut, Vectors, VectorsMut};
 use crate::batch::storage::{DoubleWords, from_native, to_native};
@@ -35,9 +35,9 @@ use crate::vector::{Strided, StridedMut};
 /// ```
 ///
 /// # Promises
-/// Those of the [module](super#promises). Only the normal has codes that are not canonical. `encode(decode(code))` and
-/// `encode_precise(decode(code))` are `canonical(code)` up to 23 bits of angle. So a buffer that encoders wrote keeps its bytes when it
-/// is decoded and encoded again. With more bits the angle comes back to 4e-7 radians, as near as `f32` carries it.
+/// Those of the [module](super#promises). Both encoders are stable: a buffer that they wrote keeps its bytes when it is decoded
+/// and encoded again. Of more than 22 bits of angle, more than `f32` carries, they leave the others zero. Canonical are
+/// these angles, with the canonical normal. Decoding reads all bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct OctAngleFormat {
     oct_bits: u32,
@@ -312,7 +312,7 @@ impl OctAngleFormat {
     fn tangent_error(self, normal: f64) -> f64 {
         /// What rounding adds, that of the root too.
         const ROUNDING: f64 = 5e-5;
-        let half_step = 180.0 / (1u64 << self.angle_bits) as f64;
+        let half_step = 180.0 / (1u64 << self.angle_bits.min(EMITTED)) as f64;
         // Right-angled on the sphere, where the longest side is shorter than it is in the plane.
         f64::from(sqrt((half_step * half_step + normal * normal) as f32)) + ROUNDING
     }

@@ -7,11 +7,17 @@ use crate::simd::{I32x1, Simd, SimdInt};
 
 use super::formula::{Decoded, FrameFormula, Prepared, basis, sign, unit_combination};
 
+/// Bits of angle that encoders give; where there are more, they are zero. `f32` rounding moves a decoded angle by up to a
+/// quarter of their step, so that it is encoded as it was.
+pub(super) const EMITTED: u32 = 22;
+
 /// A normal, an angle and a sign bit, from the low bits up: at most 64 bits in all.
 #[derive(Clone, Copy)]
 pub(super) struct OctAngle {
     oct: Oct<Central>,
     angle: Circle,
+    /// The angles that encoders give.
+    emitted: Circle,
     /// Where the angle begins, from 8 to 32.
     shift: u32,
     /// How far the sign is below the highest bit of its word.
@@ -29,11 +35,18 @@ impl OctAngle {
         OctAngle {
             oct: Oct::plain(oct_bits),
             angle: Circle::new(angle_bits),
+            emitted: Circle::new(if angle_bits < EMITTED { angle_bits } else { EMITTED }),
             shift: oct_bits,
             below_top: 31 - sign_at % 32,
             sign: halves(1 << sign_at),
             rest: halves(u64::MAX >> (63 - sign_at) >> oct_bits << oct_bits),
         }
+    }
+
+    /// Number of low bits of the angle that encoders leave zero.
+    #[inline(always)]
+    fn zeros(self) -> u32 {
+        self.angle.bits() - self.emitted.bits()
     }
 
     /// The code of a normal's code, an angle and a sign.
@@ -90,8 +103,8 @@ impl FrameFormula for OctAngle {
         };
         // Around the normal that the decoder will have.
         let normal = self.oct.decode::<V>(oct);
-        let angle = self.angle.nearest(frame.tangent_in(basis(normal)));
-        self.pack::<V>(oct, angle, frame.negative)
+        let angle = self.emitted.nearest(frame.tangent_in(basis(normal)));
+        self.pack::<V>(oct, angle.shl(self.zeros()), frame.negative)
     }
 
     #[inline(always)]
@@ -105,8 +118,17 @@ impl FrameFormula for OctAngle {
 
     #[inline(always)]
     fn canonical<V: Simd>(self, [low, high]: [V::Int; 2]) -> [V::Int; 2] {
-        let [rest_low, rest_high] = self.rest;
-        [self.oct.mirror::<V>(low, [false; 3]) | (low & rest_low), high & rest_high]
+        let oct = self.oct.mirror::<V>(low, [false; 3]);
+        let zeros = self.zeros();
+        if zeros == 0 {
+            let [rest_low, rest_high] = self.rest;
+            return [oct | (low & rest_low), high & rest_high];
+        }
+        // The nearest of the angles that are given, ties to even.
+        let [angle, sign] = self.angle_and_sign::<V>([low, high]);
+        let odd = angle.shr_logical(zeros).low_bits(1);
+        let angle = (angle + odd + ((1 << (zeros - 1)) - 1)).shr_logical(zeros).low_bits(EMITTED);
+        self.pack::<V>(oct, angle.shl(zeros), sign.lt(0))
     }
 }
 
@@ -188,7 +210,8 @@ mod tests {
         assert_eq!(split.unpack_parameters(code), ([-1, 2], 0xAB_CDEF, true));
         // What is above the sign does not count.
         let [low, high] = code;
-        assert_eq!(split.canonical::<f32>([low, high | 0x7FFF_E000]), code);
+        let given = split.pack_parameters([-1, 2], 0xAB_CDF0, true);
+        assert_eq!(split.canonical::<f32>([low, high | 0x7FFF_E000]), given);
         assert_eq!(split.decode::<f32>([low, high | 0x7FFF_E000]).handedness, -1.0);
         assert_eq!(split.decode::<f32>([low, I32x1(0x0ABC)]).handedness, 1.0);
     }
@@ -211,7 +234,21 @@ mod tests {
             |code: u32| BITS32.canonical::<f32>([I32x1(code as i32), I32x1(0)])[0].0 as u32;
         assert_eq!(canonical(0xABC0_0000 | 1024), 0xABC0_0000 | 1025);
         assert_eq!(canonical(0xABC0_0000 | (2048 - 5) << 11 | 1023), 0xABC0_0000 | 5 << 11 | 1023);
-        let long = BITS64.canonical::<f32>([I32x1(0x8000), I32x1(-77)]);
-        assert_eq!(long, [I32x1(0x8001), I32x1(-77)]);
+    }
+
+    #[test]
+    fn long_angles_have_the_digits_that_are_given() {
+        // Multiples of 512, ties to even, and a whole turn is none.
+        for (angle, given) in [
+            (0, 0),
+            (256, 0),
+            (257, 512),
+            (768, 1024),
+            (0x1234_5678, 0x1234_5600),
+            (0x7FFF_FFB3, 0),
+        ] {
+            let long = BITS64.canonical::<f32>([I32x1(0x8000), I32x1(angle | i32::MIN)]);
+            assert_eq!(long, [I32x1(0x8001), I32x1(given | i32::MIN)], "{angle:x}");
+        }
     }
 }

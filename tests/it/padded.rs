@@ -540,14 +540,21 @@ fn what_does_not_fit_is_refused_with_its_numbers() {
             StridedMut { bytes, offset: 1, stride, len }
         }
         let lengths = Err(StrideMismatch::Lengths { vectors: 2, codes: 3 });
-        let stride = Err(StrideMismatch::Stride { stride: size - 1, size });
+        let short = |offset, stride, size, bytes| StrideMismatch::Stride {
+            offset,
+            stride,
+            len: 2,
+            size,
+            bytes,
+        };
+        let stride = Err(short(1, size - 1, size, 40));
         let bounds = Err(StrideMismatch::Bounds { offset: 1, stride: 37, len: 2, size, bytes: 40 });
         for w in [W::Keep, W::Zero, W::One] {
             for encode in [P::<C>::encode_strided, P::<C>::encode_strided_precise] {
                 assert_eq!(encode(read(12, 2), w, write(&mut bytes, size, 3)), lengths);
                 assert_eq!(encode(read(12, 2), w, write(&mut bytes, size - 1, 2)), stride);
                 assert_eq!(encode(read(12, 2), w, write(&mut bytes, 37, 2)), bounds);
-                let vectors = Err(StrideMismatch::Stride { stride: 11, size: 12 });
+                let vectors = Err(short(0, 11, 12, 64));
                 assert_eq!(encode(read(11, 2), w, write(&mut bytes, size, 2)), vectors);
                 // Nothing to write is never wrong.
                 assert_eq!(encode(read(0, 0), w, write(&mut bytes, 0, 0)), Ok(()));
@@ -558,7 +565,7 @@ fn what_does_not_fit_is_refused_with_its_numbers() {
             assert_eq!(encode(read(16, 2), write(&mut bytes, size - 1, 2)), stride);
             assert_eq!(encode(read(16, 2), write(&mut bytes, 37, 2)), bounds);
             // A tangent is longer than a normal.
-            let tangents = Err(StrideMismatch::Stride { stride: 12, size: 16 });
+            let tangents = Err(short(0, 12, 16, 64));
             assert_eq!(encode(read(12, 2), write(&mut bytes, size, 2)), tangents);
         }
         let elements = |stride, len| Strided { bytes: &floats[..40], offset: 1, stride, len };
@@ -569,8 +576,8 @@ fn what_does_not_fit_is_refused_with_its_numbers() {
             assert_eq!(decode(elements(size, 3), write(&mut bytes, floats, 2)), lengths);
             assert_eq!(decode(elements(size - 1, 2), write(&mut bytes, floats, 2)), stride);
             assert_eq!(decode(elements(37, 2), write(&mut bytes, floats, 2)), bounds);
-            let short = StrideMismatch::Stride { stride: floats - 1, size: floats };
-            assert_eq!(decode(elements(size, 2), write(&mut bytes, floats - 1, 2)), Err(short));
+            let vectors = Err(short(1, floats - 1, floats, 40));
+            assert_eq!(decode(elements(size, 2), write(&mut bytes, floats - 1, 2)), vectors);
         }
         assert_eq!(bytes, [7; 40]);
 

@@ -82,9 +82,11 @@ fn inputs(seed: u64, count: usize) -> Vec<[f32; 4]> {
     let mut rng = Rng::new(seed);
     let odd = [0.0, -0.0, 1.0, -1.0, f32::NAN, f32::INFINITY, 1e-45, -7e37, 0.5];
     (0..count)
-        .map(|i| match i % 6 {
+        .map(|i| match i % 7 {
             0 => [0; 4].map(|_| rng.pick(&odd)),
-            1 => [0; 4].map(|_| rng.below(9) as f32 - 4.0),
+            // Half way between codes of 4 bits, where rounding is off the most.
+            1 => [5.5, 2.5, 2.5, 2.5].map(|c| c * rng.pick(&[1.0, -1.0, 0.99999])),
+            6 => [0; 4].map(|_| rng.below(9) as f32 - 4.0),
             2 => {
                 let mut q = random(&mut rng).map(|c| 0.01 * c);
                 for _ in 0..1 + rng.below(2) {
@@ -314,7 +316,7 @@ fn other_lengths_are_refused() {
         assert_eq!(format.decode_soa(&bytes[..len], to), Err(error));
     }
     let to = StridedMut { bytes: &mut bytes, offset: 0, stride: 5, len: 3 };
-    let error = StrideMismatch::Stride { stride: 5, size: 6 };
+    let error = StrideMismatch::Stride { offset: 0, stride: 5, len: 3, size: 6, bytes: 24 };
     assert_eq!(format.encode_strided(Strided::of(&[[1.0f32; 4]; 3], 0), to), Err(error));
     assert_eq!(bytes, [FILL; 24]);
 }

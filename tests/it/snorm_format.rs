@@ -143,7 +143,7 @@ fn batches_give_the_bits_of_single_vectors() {
     let mut bytes = [FILL; 12];
     assert!(format.encode_soa(Soa { x: &[1.0], y: &[1.0], z: &[1.0] }, &mut bytes[..4]).is_err());
     let to = StridedMut { bytes: &mut bytes, offset: 0, stride: 5, len: 2 };
-    let error = StrideMismatch::Stride { stride: 5, size: 6 };
+    let error = StrideMismatch::Stride { offset: 0, stride: 5, len: 2, size: 6, bytes: 12 };
     assert_eq!(format.encode_strided(Strided::of(&[[1.0f32; 3]; 2], 0), to), Err(error));
     assert_eq!(bytes, [FILL; 12]);
 }

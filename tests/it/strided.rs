@@ -532,12 +532,12 @@ fn what_does_not_fit_is_refused_and_nothing_written() {
     let bounds = StrideMismatch::Bounds { offset: 1, stride: 28, len: 3, size: 2, bytes: 30 };
     assert_eq!(refused(read(0, 12, 3), 1, 28, 3, &mut out), bounds);
     for stride in [0, 11] {
-        let expected = StrideMismatch::Stride { stride, size: 12 };
+        let expected = StrideMismatch::Stride { offset: 0, stride, len: 2, size: 12, bytes: 100 };
         assert_eq!(refused(read(0, stride, 2), 0, 2, 2, &mut out), expected);
     }
     assert_eq!(
         refused(read(0, 12, 2), 0, 1, 2, &mut out),
-        StrideMismatch::Stride { stride: 1, size: 2 }
+        StrideMismatch::Stride { offset: 0, stride: 1, len: 2, size: 2, bytes: 30 }
     );
     assert_eq!(
         refused(read(0, 12, 2), 0, 2, 3, &mut out),

@@ -7,11 +7,14 @@ mod flat_texels;
 
 use unitpack::frame::{Frame, FrameCodec, OctAngle32, OctAngleFormat};
 use unitpack::padded::{Snorm8x4, Unorm10_10_10_2, W};
-use unitpack::quaternion::{QuaternionCodec, QuaternionFormat, SmallestThree32};
+use unitpack::quaternion::{
+    QuaternionCodec, QuaternionFormat, SmallestThree32, SmallestThree48, SmallestThree64,
+};
 use unitpack::{
     AxisOrder, Codec, Format, HemiOct16, Oct16, Oct32, Octant16, OrNone, Snorm8x3, Snorm12x3,
     Strided, StridedMut,
 };
+use unitpack_test::random::Rng;
 use unitpack_test::vectors::{angle, normalize, widen};
 
 const TILTED: [f32; 3] = [0.48, -0.6, 0.64];
@@ -96,13 +99,14 @@ fn a_tangent_keeps_its_handedness_in_w() {
     assert_eq!(elements, [[0, 76, 102, 129], [127, 0, 0, 127], [0, 0, 127, 127]]);
 }
 
-/// WebGPU's only packed format.
+/// WebGPU's only packed format: 0.042 degrees in the mean by component, where 0.004 is possible.
 #[test]
 fn ten_bits_a_component_have_a_nearest_code() {
-    let mut sums: [f64; 2] = [0.0; 2];
-    for i in 0..200 {
-        let turn = 0.0157 * i as f32;
-        let v = [turn.cos() * 0.8, turn.sin() * 0.8, 0.6];
+    let mut rng = Rng::new(1);
+    let mut sums = [0.0; 2];
+    let count = 20_000;
+    for _ in 0..count {
+        let v = rng.direction();
         let codes =
             [Unorm10_10_10_2::encode(v, W::One), Unorm10_10_10_2::encode_precise(v, W::One)];
         for (sum, code) in sums.iter_mut().zip(codes) {
@@ -110,8 +114,8 @@ fn ten_bits_a_component_have_a_nearest_code() {
             *sum += degrees(Unorm10_10_10_2::decode(code), v);
         }
     }
-    // Less than half as far, in the mean.
-    assert!(sums[1] < 0.45 * sums[0], "{sums:?}");
+    let [fast, precise] = sums.map(|sum| sum / f64::from(count));
+    assert!((fast - 0.0422).abs() < 0.0008 && (precise - 0.0036).abs() < 0.0003, "{sums:?}");
 }
 
 #[test]
@@ -143,14 +147,39 @@ fn a_buffer_that_is_encoded_again_keeps_its_bytes() {
     assert!(!Format::Snorm8x3.encode_is_stable() && !Format::Octant16.encode_is_stable());
     assert!(Format::Oct16.encode_is_stable());
 
-    // The original's truncation creeps, over five rounds.
-    let start = [0.3f32, 0.5, 0.8];
-    let [mut fast, mut precise] = [start; 2];
-    for _ in 0..5 {
-        fast = Octant16::decode(Octant16::encode(fast));
-        precise = Octant16::decode(Octant16::encode_precise(precise));
+    // The original's truncation creeps: over five rounds, to the foot of the octant's triangle.
+    let mut rng = Rng::new(2);
+    let [mut farthest, mut farthest_precise] = [0.0f64; 2];
+    for _ in 0..60_000 {
+        let start = rng.direction();
+        let [mut fast, mut precise] = [start; 2];
+        for _ in 0..5 {
+            fast = Octant16::decode(Octant16::encode(fast));
+            precise = Octant16::decode(Octant16::encode_precise(precise));
+        }
+        farthest = farthest.max(degrees(fast, start));
+        farthest_precise = farthest_precise.max(degrees(precise, start));
     }
-    assert!(degrees(fast, start) > 2.0 && degrees(precise, start) < 0.65);
+    assert!((8.0..9.4).contains(&farthest), "{farthest}");
+    assert!(farthest_precise <= Format::Octant16.max_error_precise_degrees());
+}
+
+/// At 48 and 64 bits too, where `f32` does not tell all rotations apart.
+#[test]
+fn noise_around_rotations_does_not_move_codes_of_any_width() {
+    fn check<C: QuaternionCodec>() {
+        let mut rng = Rng::new(3);
+        for _ in 0..30_000 {
+            let q = [0; 4].map(|_| (rng.unit() - 0.5) as f32);
+            for encode in [C::encode, C::encode_precise] {
+                let code = encode(q);
+                assert_eq!(encode(C::decode(code)), code, "{} {q:?}", C::NAME);
+            }
+        }
+    }
+    check::<SmallestThree32>();
+    check::<SmallestThree48>();
+    check::<SmallestThree64>();
 }
 
 #[test]

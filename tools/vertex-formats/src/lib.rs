@@ -111,6 +111,7 @@ codes! {
     codecs {
         Snorm8x3 Snorm12x3 Snorm16x3 Float16x3 XyzUnorm8x3 XyzUnorm16x3 XyzUnorm10x3 Snorm10x3 Float32x3
         Oct8 Oct16 Oct20 Oct32 OctUnorm8x2 OctUnorm16x2 HemiOct16 HemiOct32 XyOnly16 XyOnly32 XyOnly32F
+        XyOnlySnorm16 XyOnlyNormalized16 XyOnlyBiased16 PhiZUnorm8x2 PhiZUnorm16x2
     }
 }
 
