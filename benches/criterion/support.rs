@@ -19,8 +19,19 @@ pub fn criterion() -> Criterion {
 
 /// Measures a function that processes [`LEN`] elements.
 pub fn measure(criterion: &mut Criterion, group: &str, id: BenchmarkId, run: &mut dyn FnMut()) {
+    measure_many(criterion, group, id, LEN, run);
+}
+
+/// Measures a function that processes `len` elements.
+pub fn measure_many(
+    criterion: &mut Criterion,
+    group: &str,
+    id: BenchmarkId,
+    len: usize,
+    run: &mut dyn FnMut(),
+) {
     let mut group = criterion.benchmark_group(group);
-    group.throughput(Throughput::Elements(LEN as u64));
+    group.throughput(Throughput::Elements(len as u64));
     group.bench_function(id, |bencher| bencher.iter(&mut *run));
     group.finish();
 }
