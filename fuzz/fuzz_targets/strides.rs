@@ -50,11 +50,9 @@ fuzz_target!(|data: &[u8]| {
     let mut to = before.clone();
     let result = format.decode_strided(codes.read(from), vectors.write(&mut to));
     assert_eq!(result.is_ok(), fits, "{format}: {codes:?} {vectors:?} {result:?}");
-    let decode = |bytes: &[u8]| {
-        let mut code = [0; 16];
-        code[..size].copy_from_slice(bytes);
-        bits((codec.decode)(u128::from_le_bytes(code)))
-    };
+    let integer =
+        |bytes: &[u8]| bytes.iter().rev().fold(0, |code, byte| code << 8 | u128::from(*byte));
+    let decode = |bytes: &[u8]| bits((codec.decode)(integer(bytes)));
     let mut wanted = before;
     if fits {
         for i in 0..codes.len {
@@ -94,7 +92,9 @@ fuzz_target!(|data: &[u8]| {
         if fits {
             for i in 0..codes.len {
                 let code = &from[codes.element(i, size)];
-                let v = if code == none { [0; 3] } else { decode(code) };
+                let used = u128::MAX >> (128 - format.bits());
+                let is_none = integer(code) & used == integer(none);
+                let v = if is_none { [0; 3] } else { decode(code) };
                 wanted[vectors.element(i, 12)]
                     .copy_from_slice(v.map(u32::to_ne_bytes).as_flattened());
             }

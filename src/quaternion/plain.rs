@@ -11,7 +11,8 @@
 //! these cubes: mostly the one that rounding gives, and otherwise all eight are tried.
 //!
 //! Canonical: of the multiples of one direction the one whose length is nearest to M. Above ten bits there
-//! are directions that `f32` cannot tell apart. Of those whose unit quaternions are equal, the one of that length is.
+//! are directions that `f32` cannot tell apart: of those whose unit quaternions are equal the one of that length is
+//! emitted, and canonical is what the nearest encoder gives.
 
 use core::marker::PhantomData;
 
@@ -281,11 +282,11 @@ impl<W: Fields> Rotation for Plain<W> {
 
     #[inline(always)]
     fn canonical<V: Simd>(self, code: Code<Self, V>) -> Code<Self, V> {
-        let mut point = self.representative::<V>(self.point::<V>(code));
-        if !self.is_distinct() {
-            point = self.alike(self.decode::<V>(code), point);
+        if self.is_distinct() {
+            self.pack::<V>(self.representative::<V>(self.point::<V>(code)))
+        } else {
+            self.encode_precise::<V>(self.decode::<V>(code))
         }
-        self.pack::<V>(point)
     }
 }
 

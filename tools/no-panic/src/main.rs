@@ -266,7 +266,7 @@ fn errors() {
     }
     for error in black_box([
         StrideMismatch::Bounds { offset: a, stride: b, len: c, size: d, bytes: a },
-        StrideMismatch::Stride { stride: a, size: b },
+        StrideMismatch::Stride { offset: a, stride: b, len: a, size: b, bytes: a },
         StrideMismatch::Lengths { vectors: a, codes: b },
         StrideMismatch::Frames { normals: a, tangents: b, codes: c },
         StrideMismatch::Fields {
