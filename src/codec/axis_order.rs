@@ -8,7 +8,8 @@ use crate::vector::{Strided, StridedMut};
 /// Which of a caller's components a codec has as its x, y and z: `Zxy` encodes (z, x, y).
 ///
 /// Batches permute nothing for it, they only take the columns in that order. For structures of arrays it needs no help:
-/// `Soa { x: &z, y: &x, z: &y }`. An array of vectors is [`Strided::of`]`(&vectors, 0)`.
+/// `Soa { x: &z, y: &x, z: &y }`. An array of vectors is [`Strided::of`]`(&vectors, 0)`. What an iterator gives is mapped
+/// by [`apply`](AxisOrder::apply), and what it decodes by [`undo`](AxisOrder::undo).
 ///
 /// ```
 /// use unitpack::{AxisOrder, Codec, HemiOct16, Strided, StridedMut};

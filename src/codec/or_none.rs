@@ -210,15 +210,8 @@ fn write(code: &mut [u8], none: &[u8]) {
 /// The little-endian bytes of a code that say something, of `bits` bits.
 #[inline(always)]
 fn used_bits<const N: usize>(bits: u32) -> [u8; N] {
-    let used = u64::MAX >> (64 - bits.clamp(1, 64));
-    let bytes = used.to_le_bytes();
-    [0; N].map({
-        let mut i = 0;
-        move |_: u8| {
-            i += 1;
-            bytes.get(i - 1).copied().unwrap_or(0)
-        }
-    })
+    let used = (u64::MAX >> (64 - bits.clamp(1, 64))).to_le_bytes();
+    core::array::from_fn(|i| used.get(i).copied().unwrap_or(0))
 }
 
 /// Calls `found` with the index of each code that is `none`, of `bits` bits.
