@@ -45,7 +45,7 @@ pub enum LengthMismatch {
     /// Quaternions as a structure of arrays and codes as bytes: the number of x, y, z and w components, of bytes, and of
     /// bytes that one code takes.
     #[allow(missing_docs)]
-    QuaternionBytes { x: usize, y: usize, z: usize, w: usize, bytes: usize, code_size: usize },
+    QuaternionBytes { components: [usize; 4], bytes: usize, code_size: usize },
     /// Tangent frames as structures of arrays: the number of x, y and z components of normals and of
     /// tangents, of handednesses, and of codes.
     #[allow(missing_docs)]
@@ -133,12 +133,13 @@ impl LengthMismatch {
 
     #[inline]
     pub(crate) fn check_quaternion_bytes(
-        [x, y, z, w]: [usize; 4],
+        components: [usize; 4],
         bytes: usize,
         code_size: usize,
     ) -> Result<(), Self> {
-        let fits = [y, z, w] == [x; 3] && x.checked_mul(code_size) == Some(bytes);
-        Self::QuaternionBytes { x, y, z, w, bytes, code_size }.unless(fits)
+        let len = components[0];
+        let fits = components == [len; 4] && len.checked_mul(code_size) == Some(bytes);
+        Self::QuaternionBytes { components, bytes, code_size }.unless(fits)
     }
 
     #[inline]
@@ -222,10 +223,12 @@ impl fmt::Display for LengthMismatch {
             LengthMismatch::Quaternions { x, y, z, w, codes } => {
                 write!(f, "lengths differ: x {x}, y {y}, z {z}, w {w}, codes {codes}")
             }
-            LengthMismatch::QuaternionBytes { x, y, z, w, bytes, code_size } => write!(
-                f,
-                "lengths do not fit: x {x}, y {y}, z {z}, w {w}, bytes {bytes} at {code_size} a code"
-            ),
+            LengthMismatch::QuaternionBytes { components: [x, y, z, w], bytes, code_size } => {
+                write!(
+                    f,
+                    "lengths do not fit: x {x}, y {y}, z {z}, w {w}, bytes {bytes} at {code_size} a code"
+                )
+            }
             LengthMismatch::FrameSoa {
                 normal: [x, y, z],
                 tangent: [tx, ty, tz],

@@ -306,7 +306,7 @@ fn other_lengths_are_refused() {
     let mut bytes = [FILL; 24];
     for (x, len) in [(2, 18), (3, 17), (3, 12), (3, 0)] {
         let error =
-            LengthMismatch::QuaternionBytes { x, y: 3, z: 3, w: 3, bytes: len, code_size: 6 };
+            LengthMismatch::QuaternionBytes { components: [x, 3, 3, 3], bytes: len, code_size: 6 };
         assert_eq!(format.encode_soa(q(x), &mut bytes[..len]), Err(error));
         assert_eq!(format.encode_soa_precise(q(x), &mut bytes[..len]), Err(error));
         let words = format!("lengths do not fit: x {x}, y 3, z 3, w 3, bytes {len} at 6 a code");

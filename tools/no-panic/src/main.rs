@@ -251,6 +251,7 @@ fn errors() {
         LengthMismatch::Table { vectors: a, entries: None },
         LengthMismatch::Angles { x: a, y: b, codes: c },
         LengthMismatch::Quaternions { x: a, y: b, z: c, w: d, codes: a },
+        LengthMismatch::QuaternionBytes { components: [a, b, c, d], bytes: a, code_size: b },
         LengthMismatch::FrameSoa { normal: [a, b, c], tangent: [a, b, c], handedness: d, codes: a },
         LengthMismatch::FrameBytes {
             normal: [a, b, c],
