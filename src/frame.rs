@@ -178,18 +178,22 @@ pub struct FrameSoaMut<'a> {
 }
 
 impl<'a> FrameSoa<'a> {
+    /// Of normals, tangents and handednesses.
+    #[inline]
+    fn lengths(&self) -> ([usize; 3], [usize; 3], usize) {
+        let lengths = |v: Soa<'_>| [v.x.len(), v.y.len(), v.z.len()];
+        (lengths(self.normal), lengths(self.tangent), self.handedness.len())
+    }
+
     #[inline]
     fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
-        let lengths = |v: Soa<'_>| [v.x.len(), v.y.len(), v.z.len()];
-        let (normal, tangent) = (lengths(self.normal), lengths(self.tangent));
-        LengthMismatch::check_frame_soa(normal, tangent, self.handedness.len(), codes)
+        let (normal, tangent, handedness) = self.lengths();
+        LengthMismatch::check_frame_soa(normal, tangent, handedness, codes)
     }
 
     #[inline]
     fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
-        let lengths = |v: Soa<'_>| [v.x.len(), v.y.len(), v.z.len()];
-        let (normal, tangent) = (lengths(self.normal), lengths(self.tangent));
-        let handedness = self.handedness.len();
+        let (normal, tangent, handedness) = self.lengths();
         LengthMismatch::check_frame_bytes(normal, tangent, handedness, bytes, code_size)
     }
 
@@ -201,18 +205,22 @@ impl<'a> FrameSoa<'a> {
 }
 
 impl<'a> FrameSoaMut<'a> {
+    /// Of normals, tangents and handednesses.
+    #[inline]
+    fn lengths(&self) -> ([usize; 3], [usize; 3], usize) {
+        let lengths = |v: &SoaMut<'_>| [v.x.len(), v.y.len(), v.z.len()];
+        (lengths(&self.normal), lengths(&self.tangent), self.handedness.len())
+    }
+
     #[inline]
     fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
-        let lengths = |v: &SoaMut<'_>| [v.x.len(), v.y.len(), v.z.len()];
-        let (normal, tangent) = (lengths(&self.normal), lengths(&self.tangent));
-        LengthMismatch::check_frame_soa(normal, tangent, self.handedness.len(), codes)
+        let (normal, tangent, handedness) = self.lengths();
+        LengthMismatch::check_frame_soa(normal, tangent, handedness, codes)
     }
 
     #[inline]
     fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
-        let lengths = |v: &SoaMut<'_>| [v.x.len(), v.y.len(), v.z.len()];
-        let (normal, tangent) = (lengths(&self.normal), lengths(&self.tangent));
-        let handedness = self.handedness.len();
+        let (normal, tangent, handedness) = self.lengths();
         LengthMismatch::check_frame_bytes(normal, tangent, handedness, bytes, code_size)
     }
 
@@ -457,8 +465,8 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         tangent_offset: usize,
         code_offset: usize,
     ) -> Result<Skew, StrideMismatch> {
-        let at = [normals.offset, tangent_offset, code_offset];
-        let within = normals.frame_within(at, CodeLayout::native::<Self::Code>())?;
+        let layout = CodeLayout::native::<Self::Code>();
+        let within = normals.frame_within(tangent_offset, code_offset, layout)?;
         Ok(kernels::encode_within(within, &Self::encode_batch))
     }
 
@@ -473,8 +481,8 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         tangent_offset: usize,
         code_offset: usize,
     ) -> Result<Skew, StrideMismatch> {
-        let at = [normals.offset, tangent_offset, code_offset];
-        let within = normals.frame_within(at, CodeLayout::native::<Self::Code>())?;
+        let layout = CodeLayout::native::<Self::Code>();
+        let within = normals.frame_within(tangent_offset, code_offset, layout)?;
         Ok(kernels::encode_within(within, &Self::encode_batch_precise))
     }
 
@@ -490,8 +498,8 @@ pub trait FrameCodec: FrameKernels + Copy + 'static {
         tangent_offset: usize,
         code_offset: usize,
     ) -> Result<(), StrideMismatch> {
-        let at = [normals.offset, tangent_offset, code_offset];
-        let within = normals.frame_within(at, CodeLayout::native::<Self::Code>())?;
+        let layout = CodeLayout::native::<Self::Code>();
+        let within = normals.frame_within(tangent_offset, code_offset, layout)?;
         kernels::decode_within(within, &Self::decode_pairs);
         Ok(())
     }

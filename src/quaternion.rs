@@ -96,29 +96,35 @@ pub struct Soa4Mut<'a> {
 
 impl Soa4<'_> {
     #[inline]
-    fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
-        let Soa4 { x, y, z, w } = self;
-        LengthMismatch::check_quaternions([x.len(), y.len(), z.len(), w.len()], codes)
+    fn lengths(&self) -> [usize; 4] {
+        [self.x.len(), self.y.len(), self.z.len(), self.w.len()]
     }
+
+    #[inline]
+    fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_quaternions(self.lengths(), codes)
+    }
+
     #[inline]
     fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
-        let Soa4 { x, y, z, w } = self;
-        let lengths = [x.len(), y.len(), z.len(), w.len()];
-        LengthMismatch::check_quaternion_bytes(lengths, bytes, code_size)
+        LengthMismatch::check_quaternion_bytes(self.lengths(), bytes, code_size)
     }
 }
 
 impl Soa4Mut<'_> {
     #[inline]
-    fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
-        let Soa4Mut { x, y, z, w } = self;
-        LengthMismatch::check_quaternions([x.len(), y.len(), z.len(), w.len()], codes)
+    fn lengths(&self) -> [usize; 4] {
+        [self.x.len(), self.y.len(), self.z.len(), self.w.len()]
     }
+
+    #[inline]
+    fn check(&self, codes: usize) -> Result<(), LengthMismatch> {
+        LengthMismatch::check_quaternions(self.lengths(), codes)
+    }
+
     #[inline]
     fn check_bytes(&self, bytes: usize, code_size: usize) -> Result<(), LengthMismatch> {
-        let Soa4Mut { x, y, z, w } = self;
-        let lengths = [x.len(), y.len(), z.len(), w.len()];
-        LengthMismatch::check_quaternion_bytes(lengths, bytes, code_size)
+        LengthMismatch::check_quaternion_bytes(self.lengths(), bytes, code_size)
     }
 }
 

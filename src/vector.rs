@@ -218,14 +218,16 @@ impl<'a> StridedMut<'a> {
         Ok(Within { bytes, stride, vectors: [vector], code, layout })
     }
 
-    /// Elements with a normal of three floats at `normal`, a tangent of four at `tangent`, and their code at `code`.
+    /// Elements with a normal of three floats at `offset`, a tangent of four at `tangent`, and their code at `code`.
     /// For the error, normal and tangent are one field.
     pub(crate) fn frame_within(
         self,
-        [normal, tangent, code]: [usize; 3],
+        tangent: usize,
+        code: usize,
         layout: CodeLayout,
     ) -> Result<Within<'a, 2>, StrideMismatch> {
-        let (stride, start) = (self.stride, normal.min(tangent));
+        let (stride, normal) = (self.stride, self.offset);
+        let start = normal.min(tangent);
         let end = normal.saturating_add(12).max(tangent.saturating_add(16));
         let (bytes, [vectors, code]) = self.fields([start, end - start], [code, layout.size])?;
         let vectors = [normal, tangent].map(|at| vectors + (at - start));

@@ -12,6 +12,9 @@ use unitpack::quaternion::{
 use unitpack::{Strided, StridedMut};
 use unitpack_fuzz::Bytes;
 use unitpack_test::UNWRITTEN;
+use unitpack_test::quaternions::{
+    Quaternion, chord, fields, greatest, length, plain, target, unit,
+};
 
 /// How far off the nearest code rounding to f32 may lead, as a chord in 4D.
 const ROUNDING: f64 = 3e-7;
@@ -41,8 +44,6 @@ fuzz_target!(|data: &[u8]| {
     }
 });
 
-type Quaternion = [f64; 4];
-
 /// Three integers, the greatest that they can be, and the component left out.
 struct Point {
     fields: [i64; 3],
@@ -51,12 +52,7 @@ struct Point {
 }
 
 fn three(code: u64, width: u32, top: u32) -> Point {
-    let m = (1 << (width - 1)) - 1;
-    let fields = [0, width, 2 * width].map(|at| {
-        let field = (code >> at) as i64 & (2 * m + 1);
-        (if field > m { field - 2 * m - 2 } else { field }).max(-m)
-    });
-    Point { fields, m, left_out: (code >> top & 3) as usize }
+    Point { fields: fields(code, width), m: greatest(width), left_out: (code >> top & 3) as usize }
 }
 
 fn words([a, b, c]: [u16; 3]) -> Point {
@@ -112,33 +108,6 @@ impl Point {
         }
         least
     }
-}
-
-fn length(q: Quaternion) -> f64 {
-    q.iter().map(|c| c * c).sum::<f64>().sqrt()
-}
-
-fn unit(q: Quaternion) -> Quaternion {
-    let length = length(q);
-    q.map(|c| c / length)
-}
-
-/// Of unit quaternions: -q is q.
-fn chord(a: Quaternion, b: Quaternion) -> f64 {
-    let off = |sign: f64| length([0, 1, 2, 3].map(|i| a[i] - sign * b[i]));
-    off(1.0).min(off(-1.0))
-}
-
-/// The rotation that an input stands for.
-fn target(q: [f32; 4]) -> Quaternion {
-    let q = q.map(f64::from);
-    unit(if q.iter().any(|c| c.is_nan()) || q == [0.0; 4] {
-        [0.0, 0.0, 0.0, 1.0]
-    } else if q.iter().any(|c| c.is_infinite()) {
-        q.map(|c| if c.is_infinite() { c.signum() } else { 0.0 })
-    } else {
-        q
-    })
 }
 
 fn check<C: QuaternionCodec>(
@@ -213,16 +182,6 @@ fn batches<C: QuaternionCodec>(q: &[[f32; 4]], codes: &[C::Code]) {
         assert_eq!(bytes_of(&[x[i], y[i], z[i], w[i]]), bytes_of(&q), "{} {code:x?}", C::NAME);
         assert_eq!(bytes_of(&aos[i]), bytes_of(&q), "{} {code:x?}", C::NAME);
     }
-}
-
-/// Four integers over their length.
-fn plain(code: u64, bits: u32) -> Quaternion {
-    let m = (1i64 << (bits - 1)) - 1;
-    let fields = [0, 1, 2, 3].map(|i| {
-        let field = (code >> (i * bits)) as i64 & (2 * m + 1);
-        (if field > m { field - 2 * m - 2 } else { field }).max(-m) as f64
-    });
-    if fields == [0.0; 4] { [0.0, 0.0, 0.0, 1.0] } else { unit(fields) }
 }
 
 fn check_format(format: QuaternionFormat, given: &[[u8; 16]], meaning: &dyn Fn(u64) -> Quaternion) {

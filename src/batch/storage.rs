@@ -184,6 +184,20 @@ impl CodeKind for Words {
 /// many.
 pub(crate) struct DoubleWords;
 
+impl DoubleWords {
+    /// The least size in bytes, of two to eight, of codes of so many bits.
+    #[inline]
+    pub(crate) const fn size_of(bits: u32) -> usize {
+        match bits {
+            ..=16 => 2,
+            17..=24 => 3,
+            25..=32 => 4,
+            33..=48 => 6,
+            _ => 8,
+        }
+    }
+}
+
 /// One of three, by the size of a code in bytes.
 #[derive(Clone, Copy)]
 pub(crate) enum ByDoubleSize<A, B, C> {

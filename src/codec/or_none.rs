@@ -4,6 +4,7 @@ use super::sealed::{Batch, Chosen};
 use super::{Axis, Codec, Format};
 use crate::batch::layout::{self, CodeLayout, Codes, CodesMut, Vectors, VectorsMut};
 use crate::batch::storage::{CodeSlice, CodeSliceMut, swap_if_big_endian};
+use crate::formula::support::sanitize::magnitude;
 use crate::simd::stream::Fence;
 
 /// The codec `C`, in which its [`NONE`](Codec::NONE) means that there is no vector.
@@ -51,9 +52,7 @@ impl<C: Codec> OrNone<C> {
     fn is_none(mut code: C::Code) -> bool {
         let bytes = bytemuck::bytes_of_mut(&mut code);
         swap_if_big_endian(bytes, align_of::<C::Code>());
-        let used = used_bits::<8>(C::FORMAT.bits());
-        let bytes = bytes.iter().zip(&used).zip(Self::bytes());
-        bytes.fold(0, |differ, ((code, used), none)| differ | (code & used) ^ none) == 0
+        is_none(bytes, &used_bits::<8>(C::FORMAT.bits()), Self::bytes())
     }
 
     /// Its little-endian bytes.
@@ -173,10 +172,8 @@ impl Chosen for OrNone<Format> {
 
 /// Whether a vector is neither zero nor has a NaN.
 #[inline(always)]
-fn has_direction([x, y, z]: [f32; 3]) -> bool {
-    // Magnitudes are in the order of their bits, with infinity and then NaN last.
-    let [x, y, z] = [x.abs().to_bits(), y.abs().to_bits(), z.abs().to_bits()];
-    (1..=f32::INFINITY.to_bits()).contains(&x.max(y).max(z))
+fn has_direction(v: [f32; 3]) -> bool {
+    0.0 < magnitude::<f32>(v.into())
 }
 
 /// Elements that are looked at together, as most have a direction.
@@ -214,6 +211,13 @@ fn used_bits<const N: usize>(bits: u32) -> [u8; N] {
     core::array::from_fn(|i| used.get(i).copied().unwrap_or(0))
 }
 
+/// Whether the `used` bits of a code are those of `none`.
+#[inline(always)]
+fn is_none(code: &[u8], used: &[u8], none: &[u8]) -> bool {
+    let bytes = code.iter().zip(used).zip(none);
+    bytes.fold(0, |differ, ((code, used), none)| differ | (code & used) ^ none) == 0
+}
+
 /// Calls `found` with the index of each code that is `none`, of `bits` bits.
 #[inline(always)]
 fn for_each_none(codes: CodeSlice<'_>, none: &[u8], bits: u32, mut found: impl FnMut(usize)) {
@@ -229,10 +233,7 @@ fn for_each_none(codes: CodeSlice<'_>, none: &[u8], bits: u32, mut found: impl F
             return;
         };
         let used = used_bits::<N>(bits);
-        let is_none = |code: &[u8; N]| {
-            let bytes = code.iter().zip(&used).zip(none);
-            bytes.fold(0, |differ, ((code, used), none)| differ | (code & used) ^ none) == 0
-        };
+        let is_none = |code: &[u8; N]| is_none(code, &used, none);
         for (block, codes) in codes.chunks(BLOCK).enumerate() {
             if codes.iter().fold(false, |any, code| any | is_none(code)) {
                 for (i, code) in codes.iter().enumerate() {

@@ -1,13 +1,12 @@
 //! An octahedral normal and an angle in any number of bits.
 
-use super::formula::{Decoded, FrameCodes, FrameFormula};
+use super::formula::{Decoded, FrameFormula};
 use super::oct_angle::{EMITTED, OctAngle};
 use super::{Frame, FrameSoa, FrameSoaMut, Skew, kernels};
 use crate::batch::layout::{CodeLayout, Codes, CodesMut, PairMut, Vectors, VectorsMut};
-use crate::batch::storage::{DoubleWords, from_native, to_native};
+use crate::batch::storage::{DoubleWords, OneLane};
 use crate::codec::Format;
 use crate::error::{LengthMismatch, StrideMismatch};
-use crate::simd::I32x1;
 use crate::simd::math::sqrt;
 use crate::vector::{Strided, StridedMut};
 
@@ -44,9 +43,6 @@ pub struct OctAngleFormat {
     angle_bits: u32,
 }
 
-/// Bytes of a code as singles have it.
-type Bytes = [u8; 8];
-
 impl OctAngleFormat {
     /// The format of `oct_bits` for the normal, an even number from 8 to 32, and `angle_bits` from 1 to 31. With the
     /// handedness they are 16 to 64. `None` for others.
@@ -82,13 +78,7 @@ impl OctAngleFormat {
     /// Number of bytes of a code in a batch: 2, 3, 4, 6 or 8, the least that hold its bits.
     #[inline]
     pub const fn code_size(self) -> usize {
-        match self.bits() {
-            ..=16 => 2,
-            17..=24 => 3,
-            25..=32 => 4,
-            33..=48 => 6,
-            _ => 8,
-        }
+        DoubleWords::size_of(self.bits())
     }
 
     /// A bound of the normal's greatest error with `encode`, in degrees: that of the oct format of as many bits.
@@ -118,23 +108,24 @@ impl OctAngleFormat {
 
     /// As [`FrameCodec::encode`](super::FrameCodec::encode).
     pub fn encode(self, frame: Frame) -> u64 {
-        from_words(self.formula().encode::<f32, false>(frame.prepare()))
+        self.formula().encode::<f32, false>(frame.prepare()).to_u64()
     }
 
     /// As [`FrameCodec::encode_precise`](super::FrameCodec::encode_precise).
     pub fn encode_precise(self, frame: Frame) -> u64 {
-        from_words(self.formula().encode::<f32, true>(frame.prepare()))
+        self.formula().encode::<f32, true>(frame.prepare()).to_u64()
     }
 
     /// As [`FrameCodec::decode`](super::FrameCodec::decode).
     pub fn decode(self, code: u64) -> Frame {
-        let Decoded { normal, tangent, handedness } = self.formula().decode::<f32>(to_words(code));
+        let Decoded { normal, tangent, handedness } =
+            self.formula().decode::<f32>(OneLane::from_u64(code));
         Frame { normal: normal.to_array(), tangent: tangent.to_array(), handedness }
     }
 
     /// As [`FrameCodec::canonical`](super::FrameCodec::canonical).
     pub fn canonical(self, code: u64) -> u64 {
-        from_words(self.formula().canonical::<f32>(to_words(code)))
+        self.formula().canonical::<f32>(OneLane::from_u64(code)).to_u64()
     }
 
     /// Whether encoders emit `code`.
@@ -161,13 +152,13 @@ impl OctAngleFormat {
     /// # Ok::<(), &str>(())
     /// ```
     pub fn from_parameters(self, u: i32, v: i32, angle: u32, negative: bool) -> u64 {
-        from_words(self.formula().pack_parameters([u, v], angle, negative))
+        self.formula().pack_parameters([u, v], angle, negative).to_u64()
     }
 
     /// The parameters of a code, any bit pattern, as [`from_parameters`](OctAngleFormat::from_parameters) takes them. -M - 1 reads
     /// as -M.
     pub fn parameters(self, code: u64) -> (i32, i32, u32, bool) {
-        let ([u, v], angle, negative) = self.formula().unpack_parameters(to_words(code));
+        let ([u, v], angle, negative) = self.formula().unpack_parameters(OneLane::from_u64(code));
         (u, v, angle, negative)
     }
 
@@ -340,16 +331,6 @@ impl OctAngleFormat {
     fn decode_pairs(self, codes: Codes<'_>, frames: PairMut<'_>) {
         kernels::decode::<_, DoubleWords, _>(self.formula(), codes, frames);
     }
-}
-
-#[inline(always)]
-fn from_words(words: [I32x1; 2]) -> u64 {
-    to_native::<Bytes, u64>(Bytes::from_words::<f32>(words))
-}
-
-#[inline(always)]
-fn to_words(code: u64) -> [I32x1; 2] {
-    Bytes::to_words::<f32>(from_native::<Bytes, u64>(code))
 }
 
 #[cfg(test)]

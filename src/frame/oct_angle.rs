@@ -24,8 +24,6 @@ pub(super) struct OctAngle {
     below_top: u32,
     /// The sign's bit, a mask a word.
     sign: [i32; 2],
-    /// The bits of angle and sign.
-    rest: [i32; 2],
 }
 
 impl OctAngle {
@@ -39,7 +37,6 @@ impl OctAngle {
             shift: oct_bits,
             below_top: 31 - sign_at % 32,
             sign: halves(1 << sign_at),
-            rest: halves(u64::MAX >> (63 - sign_at) >> oct_bits << oct_bits),
         }
     }
 
@@ -119,16 +116,14 @@ impl FrameFormula for OctAngle {
     #[inline(always)]
     fn canonical<V: Simd>(self, [low, high]: [V::Int; 2]) -> [V::Int; 2] {
         let oct = self.oct.mirror::<V>(low, [false; 3]);
+        let [mut angle, sign] = self.angle_and_sign::<V>([low, high]);
         let zeros = self.zeros();
-        if zeros == 0 {
-            let [rest_low, rest_high] = self.rest;
-            return [oct | (low & rest_low), high & rest_high];
+        if zeros > 0 {
+            // The nearest of the angles that are given, ties to even.
+            let odd = angle.shr_logical(zeros).low_bits(1);
+            angle = (angle + odd + ((1 << (zeros - 1)) - 1)).shr_logical(zeros).shl(zeros);
         }
-        // The nearest of the angles that are given, ties to even.
-        let [angle, sign] = self.angle_and_sign::<V>([low, high]);
-        let odd = angle.shr_logical(zeros).low_bits(1);
-        let angle = (angle + odd + ((1 << (zeros - 1)) - 1)).shr_logical(zeros).low_bits(EMITTED);
-        self.pack::<V>(oct, angle.shl(zeros), sign.lt(0))
+        self.pack::<V>(oct, angle.low_bits(self.angle.bits()), sign.lt(0))
     }
 }
 

@@ -113,13 +113,7 @@ impl QuaternionFormat {
     /// Size of a code in bytes: 2, 3, 4, 6 or 8, the least that holds its bits.
     #[inline]
     pub const fn code_size(self) -> usize {
-        match self.bits() {
-            0..=16 => 2,
-            17..=24 => 3,
-            25..=32 => 4,
-            33..=48 => 6,
-            _ => 8,
-        }
+        DoubleWords::size_of(self.bits())
     }
 
     /// A bound of the greatest error of `encode`, in degrees of rotation.

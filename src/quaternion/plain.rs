@@ -18,7 +18,7 @@ use core::marker::PhantomData;
 
 use super::chart::{LeftOut, get, largest, put};
 use super::formula::{Code, Rotation};
-use super::smallest_three::{length_squared, normalize};
+use super::smallest_three::{equal, length_squared, normalize};
 use crate::batch::storage::{CodeShape, Word, Words2};
 use crate::formula::support::bits::snorm_max;
 use crate::formula::support::divisor::gcd;
@@ -218,11 +218,9 @@ impl<W: Fields> Plain<W> {
             let there = line.chart.insert_int(map_vec!(near, |c| c.round_int()), V::Int::splat(n));
             let there = self.representative::<V>(there);
             let decoded = normalize(self.unit::<V>(there));
-            let [x, y, z, w] =
-                map4!([0, 1, 2, 3], |i: usize| unit[i].le(decoded[i]) & decoded[i].le(unit[i]));
             let length = sqrt(length_squared(map4!(there, |i| V::from_int(i))));
             let off = (length - m).abs();
-            let better = x & y & z & w & off.lt(off_length);
+            let better = equal(decoded, unit) & off.lt(off_length);
             off_length = V::select(better, off, off_length);
             found = map4!([0, 1, 2, 3], |i: usize| V::Int::select(better, there[i], found[i]));
         }

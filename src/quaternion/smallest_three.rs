@@ -161,13 +161,10 @@ impl Scale {
                 let fields = map_vec!(others, |c| c.negate_where_negative(main).round_int());
                 let there = Point { fields, left_out: chart };
                 let decoded = normalize(self.decode::<V>(there));
-                let [x, y, z, w] = map4!([0, 1, 2, 3], |i: usize| {
-                    let c = unit[i].negate_where_negative(main);
-                    c.le(decoded[i]) & decoded[i].le(c)
-                });
+                let alike = equal(decoded, map4!(unit, |c| c.negate_where_negative(main)));
                 let Vec3 { x: i, y: j, z: l } = fields.abs_int();
                 let beyond = V::Int::splat(self.max).lt(i.max(j).max(l));
-                let alike = counts & !beyond & x & y & z & w;
+                let alike = counts & !beyond & alike;
                 least = V::Int::select(alike, rank(chart), least);
                 first = Point::select(alike, there, first);
             }
@@ -303,6 +300,13 @@ impl<Y: Layout> Rotation for SmallestThree<Y> {
 #[inline(always)]
 fn is_about_whole<V: Simd>(steps: V) -> V::Mask {
     (steps - steps.round()).abs().le(steps.abs() * 4e-7)
+}
+
+/// Whether all components are equal.
+#[inline(always)]
+pub(super) fn equal<V: Simd>(p: [V; 4], q: [V; 4]) -> V::Mask {
+    let [x, y, z, w] = map4!([0, 1, 2, 3], |i: usize| p[i].le(q[i]) & q[i].le(p[i]));
+    x & y & z & w
 }
 
 /// q / |q|.

@@ -10,7 +10,7 @@
 //! - [`digests`]: the pinned digests.
 //! - [`tables`]: decode tables, likewise.
 //! - [`readme`]: the README's table of codecs.
-//! - [`random`], [`vectors`], [`Arrays`], [`frames`], [`published`] and [`tasks`]: what their names
+//! - [`random`], [`vectors`], [`Arrays`], [`frames`], [`quaternions`], [`published`] and [`tasks`]: what their names
 //!   say.
 //!
 //! Whatever runs a codec is generic or `#[inline]`. So this crate itself contains no codec, and a
@@ -25,6 +25,7 @@ pub mod every_code;
 pub mod frames;
 pub mod oracle;
 pub mod published;
+pub mod quaternions;
 pub mod random;
 pub mod readme;
 pub mod tables;

@@ -8,9 +8,8 @@ use unitpack::LengthMismatch;
 use unitpack::quaternion::{
     QuaternionCodec, SmallestThree32, SmallestThree48, SmallestThree64, Soa4, Soa4Mut, TanThree32,
 };
+use unitpack_test::quaternions::{self, Quaternion, length, unit};
 use unitpack_test::random::Rng;
-
-type Quaternion = [f64; 4];
 
 const IDENTITY: Quaternion = [0.0, 0.0, 0.0, 1.0];
 
@@ -179,27 +178,13 @@ macro_rules! every_codec {
     };
 }
 
-fn length(q: Quaternion) -> f64 {
-    q.iter().map(|c| c * c).sum::<f64>().sqrt()
-}
-
-fn unit(q: Quaternion) -> Quaternion {
-    // Twice, as the square of a small length is less than the least number.
-    let greatest = q.iter().fold(0.0f64, |a, c| a.max(c.abs()));
-    let q = q.map(|c| c / greatest);
-    let length = length(q);
-    q.map(|c| c / length)
-}
-
 fn largest(q: Quaternion) -> usize {
     (1..4).fold(0, |a, i| if q[i].abs() > q[a].abs() { i } else { a })
 }
 
 /// Between rotations: -q is q.
 fn chord(a: Quaternion, b: Quaternion) -> f64 {
-    let (a, b) = (unit(a), unit(b));
-    let off = |sign: f64| length([0, 1, 2, 3].map(|i| a[i] - sign * b[i]));
-    off(1.0).min(off(-1.0))
+    quaternions::chord(unit(a), unit(b))
 }
 
 /// The angle of rotation of a chord, in degrees.

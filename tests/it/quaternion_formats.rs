@@ -3,9 +3,10 @@
 use unitpack::quaternion::{QuaternionCodec, QuaternionFormat, SmallestThree32, Soa4, Soa4Mut};
 use unitpack::{LengthMismatch, StrideMismatch, Strided, StridedMut};
 use unitpack_test::elements::FILL;
+use unitpack_test::quaternions::{
+    Quaternion, chord, fields, greatest, length, plain, target, unit,
+};
 use unitpack_test::random::Rng;
-
-type Quaternion = [f64; 4];
 
 /// How far off rounding to f32 may lead, as a chord in 4D.
 const ROUNDING: f64 = 3e-7;
@@ -27,20 +28,6 @@ fn width(format: QuaternionFormat) -> u32 {
     if is_three(format) { (format.bits() - 2) / 3 } else { format.bits() / 4 }
 }
 
-fn length(q: Quaternion) -> f64 {
-    q.iter().map(|c| c * c).sum::<f64>().sqrt()
-}
-
-fn unit(q: Quaternion) -> Quaternion {
-    let length = length(q);
-    q.map(|c| c / length)
-}
-
-fn chord(a: Quaternion, b: Quaternion) -> f64 {
-    let off = |sign: f64| length([0, 1, 2, 3].map(|i| a[i] - sign * b[i]));
-    off(1.0).min(off(-1.0))
-}
-
 /// The angle of the rotation between two quaternions.
 fn degrees(chord: f64) -> f64 {
     4.0 * (chord / 2.0).asin().to_degrees()
@@ -48,24 +35,18 @@ fn degrees(chord: f64) -> f64 {
 
 /// What a code means.
 fn meaning(format: QuaternionFormat, code: u64) -> Quaternion {
-    let (bits, m) = (width(format), (1i64 << (width(format) - 1)) - 1);
-    let field = |i: u32| {
-        let field = (code >> (i * bits)) as i64 & ((1 << bits) - 1);
-        (if field > m { field - (1 << bits) } else { field }).max(-m) as f64
-    };
-    if is_three(format) {
-        let fields = [0, 1, 2].map(field);
-        let rest = 2.0 * (m * m) as f64 - fields.iter().map(|f| f * f).sum::<f64>();
-        if rest < 0.0 {
-            return [0.0, 0.0, 0.0, 1.0];
-        }
-        let mut q = fields.to_vec();
-        q.insert((code >> (3 * bits) & 3) as usize, rest.sqrt());
-        unit(q.try_into().unwrap())
-    } else {
-        let fields = [0, 1, 2, 3].map(field);
-        if fields == [0.0; 4] { [0.0, 0.0, 0.0, 1.0] } else { unit(fields) }
+    let bits = width(format);
+    if !is_three(format) {
+        return plain(code, bits);
     }
+    let fields: [i64; 3] = fields(code, bits);
+    let rest = 2 * greatest(bits).pow(2) - fields.iter().map(|f| f * f).sum::<i64>();
+    if rest < 0 {
+        return [0.0, 0.0, 0.0, 1.0];
+    }
+    let mut q = fields.map(|f| f as f64).to_vec();
+    q.insert((code >> (3 * bits) & 3) as usize, (rest as f64).sqrt());
+    unit(q.try_into().unwrap())
 }
 
 fn random(rng: &mut Rng) -> [f32; 4] {
@@ -97,18 +78,6 @@ fn inputs(seed: u64, count: usize) -> Vec<[f32; 4]> {
             _ => random(&mut rng),
         })
         .collect()
-}
-
-/// The rotation that an input stands for.
-fn target(q: [f32; 4]) -> Quaternion {
-    let q = q.map(f64::from);
-    unit(if q.iter().any(|c| c.is_nan()) || q == [0.0; 4] {
-        [0.0, 0.0, 0.0, 1.0]
-    } else if q.iter().any(|c| c.is_infinite()) {
-        q.map(|c| if c.is_infinite() { c.signum() } else { 0.0 })
-    } else {
-        q
-    })
 }
 
 /// How many inputs `encode_precise` is tried with: it takes longer with each bit.
